@@ -1,0 +1,93 @@
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include "integrators/sundials/schemes.hpp"
+#include "integrators/sundials/session.hpp"
+
+namespace gnomon::sundials {
+namespace {
+
+class Cvode final : public Session {
+ public:
+  Cvode(const OdeSystem& system, const RunSpec& spec, bool adams) : Session(system, spec), system_(system) {
+    system.start(N_VGetArrayPointer(y_.get()));
+    memory_ = CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_);
+    if (!memory_) throw std::runtime_error("CVodeCreate failed");
+    keep_cvode_messages(memory_, &messages_);
+    check(CVodeInit(memory_, rhs, 0.0, y_.get()), "CVodeInit");
+    check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
+    check(CVodeSVtolerances(memory_, rtol_, atol_.get()), "CVodeSVtolerances");
+    check(CVodeSetMaxNumSteps(memory_, max_steps_), "CVodeSetMaxNumSteps");
+    check(CVodeSetMaxHnilWarns(memory_, -1), "CVodeSetMaxHnilWarns");
+    if (adams) {
+      fixed_point_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
+      check(CVodeSetNonlinearSolver(memory_, fixed_point_.get()), "CVodeSetNonlinearSolver");
+    } else {
+      linear_ = make_linear(system, y_.get(), context_);
+      check(CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()), "CVodeSetLinearSolver");
+      check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
+    }
+  }
+  ~Cvode() override { CVodeFree(&memory_); }
+  Cvode(const Cvode&) = delete;
+  Cvode& operator=(const Cvode&) = delete;
+
+  Status advance(double t_stop, bool one_step) override {
+    if (stop_ != t_stop) CVodeSetStopTime(memory_, stop_ = t_stop);
+    const int flag = CVode(memory_, t_stop, y_.get(), &t_, one_step ? CV_ONE_STEP : CV_NORMAL);
+    return finish(flag, CVodeGetReturnFlagName, "CVODE");
+  }
+  void restart() override {
+    past_ = cost();
+    enter_segment();
+    rhs_ = 0;
+    check(CVodeReInit(memory_, t_, y_.get()), "CVodeReInit");
+  }
+  Cost cost() const override {
+    Cost cost = past_;
+    long steps = 0, failures = 0, convergence = 0, iterations = 0, jacobians = 0, setups = 0;
+    CVodeGetNumSteps(memory_, &steps);
+    CVodeGetNumErrTestFails(memory_, &failures);
+    CVodeGetNumNonlinSolvConvFails(memory_, &convergence);
+    CVodeGetNumNonlinSolvIters(memory_, &iterations);
+    if (!fixed_point_) {
+      CVodeGetNumJacEvals(memory_, &jacobians);
+      CVodeGetNumLinSolvSetups(memory_, &setups);
+    }
+    cost.steps += steps;
+    cost.rejected += failures + convergence;
+    cost.rhs += rhs_;
+    cost.jacobians += jacobians;
+    cost.factorizations += setups;
+    cost.newton_iterations += iterations;
+    return cost;
+  }
+
+ private:
+  static int rhs(sunrealtype t, N_Vector y, N_Vector rate, void* user) {
+    auto* self = static_cast<Cvode*>(user);
+    return self->guarded([&] {
+      ++self->rhs_;
+      double* out = N_VGetArrayPointer(rate);
+      self->system_.rhs(self->one_sided(t), N_VGetArrayPointer(y), out);
+      require_finite(out, self->size_);
+    });
+  }
+  static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
+    auto* self = static_cast<Cvode*>(user);
+    return self->guarded(
+        [&] { self->system_.jacobian(self->one_sided(t), N_VGetArrayPointer(y), matrix_values(J, self->pattern_)); });
+  }
+
+  const OdeSystem& system_;
+  NonlinearSolver fixed_point_;
+  void* memory_ = nullptr;
+  Cost past_;
+};
+
+}  // namespace
+
+std::unique_ptr<AdaptiveSolver> make_cvode(const OdeSystem& system, const RunSpec& spec, bool adams) {
+  return std::make_unique<Cvode>(system, spec, adams);
+}
+
+}  // namespace gnomon::sundials

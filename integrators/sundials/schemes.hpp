@@ -1,0 +1,150 @@
+#pragma once
+#include <memory>
+
+#include "src/ode.hpp"
+#include "src/run.hpp"
+#include "src/scheme.hpp"
+
+namespace gnomon::sundials {
+
+std::unique_ptr<AdaptiveSolver> make_cvode(const OdeSystem& system, const RunSpec& spec, bool adams);
+/// An explicit table of ERKStep or a diagonally implicit one of ARKStep, by its name in SUNDIALS.
+std::unique_ptr<AdaptiveSolver> make_arkode(const OdeSystem& system, const RunSpec& spec, bool implicit,
+                                            const char* table);
+std::unique_ptr<AdaptiveSolver> make_ida(const DaeSystem& system, const RunSpec& spec);
+
+/// Schemes on the ODE form.
+struct OnOde {
+  template <HasOde M>
+  static std::unique_ptr<OdeSystem> system(const M& model) {
+    return erase_ode(model);
+  }
+};
+
+inline constexpr std::string_view cvode_citation =
+    "A.C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363-396; SUNDIALS CVODE";
+inline constexpr std::string_view arkode_citation =
+    "D.R. Reynolds, D.J. Gardner, C.S. Woodward, R. Chinomona, ACM Trans. Math. Softw. 49 (2023) 19; SUNDIALS ARKODE";
+
+struct CvodeAdams : OnOde {
+  static constexpr SchemeInfo info{
+      .name = "cvode-adams",
+      .family = "sundials",
+      .summary = "CVODE, Adams-Moulton of order 1 to 12 with variable step, fixed-point iteration",
+      .citation = cvode_citation,
+      .form = "ode",
+      .stepping = Stepping::adaptive,
+  };
+  static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
+    return make_cvode(system, spec, true);
+  }
+};
+
+struct CvodeBdf : OnOde {
+  static constexpr SchemeInfo info{
+      .name = "cvode-bdf",
+      .family = "sundials",
+      .summary = "CVODE, BDF of order 1 to 5 with variable step, Newton with the analytic Jacobian",
+      .citation = cvode_citation,
+      .form = "ode",
+      .stepping = Stepping::adaptive,
+  };
+  static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
+    return make_cvode(system, spec, false);
+  }
+};
+
+struct ArkodeErk4 : OnOde {
+  static constexpr SchemeInfo info{
+      .name = "arkode-erk4",
+      .family = "sundials",
+      .summary = "ARKODE ERKStep, ARKODE_ZONNEVELD_5_3_4, explicit, order 4",
+      .citation = arkode_citation,
+      .form = "ode",
+      .stepping = Stepping::adaptive,
+  };
+  static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
+    return make_arkode(system, spec, false, "ARKODE_ZONNEVELD_5_3_4");
+  }
+};
+
+struct ArkodeErk5 : OnOde {
+  static constexpr SchemeInfo info{
+      .name = "arkode-erk5",
+      .family = "sundials",
+      .summary = "ARKODE ERKStep, ARKODE_DORMAND_PRINCE_7_4_5, explicit, order 5",
+      .citation = arkode_citation,
+      .form = "ode",
+      .stepping = Stepping::adaptive,
+  };
+  static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
+    return make_arkode(system, spec, false, "ARKODE_DORMAND_PRINCE_7_4_5");
+  }
+};
+
+struct ArkodeErk8 : OnOde {
+  static constexpr SchemeInfo info{
+      .name = "arkode-erk8",
+      .family = "sundials",
+      .summary = "ARKODE ERKStep, ARKODE_FEHLBERG_13_7_8, explicit, order 8",
+      .citation = arkode_citation,
+      .form = "ode",
+      .stepping = Stepping::adaptive,
+  };
+  static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
+    return make_arkode(system, spec, false, "ARKODE_FEHLBERG_13_7_8");
+  }
+};
+
+struct ArkodeDirk : OnOde {
+  static constexpr SchemeInfo info{
+      .name = "arkode-dirk",
+      .family = "sundials",
+      .summary = "ARKODE ARKStep, ARKODE_KVAERNO_7_4_5, diagonally implicit, order 5, Newton with the analytic Jacobian",
+      .citation = arkode_citation,
+      .form = "ode",
+      .stepping = Stepping::adaptive,
+  };
+  static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
+    return make_arkode(system, spec, true, "ARKODE_KVAERNO_7_4_5");
+  }
+};
+
+struct IdaBdf {
+  static constexpr SchemeInfo info{
+      .name = "ida-bdf",
+      .family = "sundials",
+      .summary = "IDA, BDF of order 1 to 5 with variable step on the stabilised DAE form",
+      .citation = "A.C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363-396; SUNDIALS IDA",
+      .form = "dae",
+      .stepping = Stepping::adaptive,
+  };
+  template <HasDae M>
+  static std::unique_ptr<DaeSystem> system(const M& model) {
+    return erase_dae(model, model.dae());
+  }
+  static std::unique_ptr<AdaptiveSolver> make(const DaeSystem& system, const RunSpec& spec) {
+    return make_ida(system, spec);
+  }
+};
+
+struct IdaBdfIndex2 {
+  static constexpr SchemeInfo info{
+      .name = "ida-bdf-index2",
+      .family = "sundials",
+      .summary = "negative control: the same on the index-2 DAE form, which has to end with a reason",
+      .citation = IdaBdf::info.citation,
+      .form = "dae",
+      .stepping = Stepping::adaptive,
+      .control = true,
+  };
+  template <HasIndex2Dae M>
+  static std::unique_ptr<DaeSystem> system(const M& model) {
+    return erase_dae(model, model.dae_index2());
+  }
+  static std::unique_ptr<AdaptiveSolver> make(const DaeSystem& system, const RunSpec& spec) {
+    return make_ida(system, spec);
+  }
+};
+
+}  // namespace gnomon::sundials

@@ -1,0 +1,14 @@
+#include "models/catalogue.hpp"
+
+#include "models/rigid_body/read.hpp"
+
+namespace gnomon {
+
+void add_models(Catalogue& catalogue) {
+  const std::string root = std::string(GNOMON_SOURCE_DIR) + "/models/";
+  catalogue.models.push_back(rigid_body::entry);
+  catalogue.scene_folders.push_back(root + "rigid_body/scenes");
+  add_model_types(catalogue, Models{});
+}
+
+}  // namespace gnomon

@@ -1,0 +1,63 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "src/model.hpp"
+#include "src/reference_states.hpp"
+
+namespace gnomon {
+
+/// A model whose type is forgotten: what studies and output need of it. States are flattened.
+class AnyModel {
+ public:
+  virtual ~AnyModel() = default;
+  virtual std::type_index type() const = 0;
+  virtual const void* get() const = 0;
+  virtual std::vector<MetricInfo> metrics() const = 0;
+  virtual std::vector<InvariantInfo> invariant_info() const = 0;
+  virtual std::vector<double> breaks() const = 0;
+  virtual std::string_view load_class() const = 0;
+  virtual double time_scale() const = 0;
+  virtual std::vector<Named> observe(const std::vector<double>& state) const = 0;
+  virtual std::vector<double> distance(const std::vector<double>& state, const std::vector<double>& reference) const = 0;
+  /// Closed form, else two independent methods in extended precision; kind is empty where neither is to be had.
+  virtual ReferenceStates reference(const std::vector<double>& times) const = 0;
+  virtual bool has_exact() const = 0;
+};
+
+template <Model M>
+class ModelBox final : public AnyModel {
+ public:
+  explicit ModelBox(M model) : model_(std::move(model)) {}
+  std::type_index type() const override { return typeid(M); }
+  const void* get() const override { return &model_; }
+  std::vector<MetricInfo> metrics() const override { return {M::metrics.begin(), M::metrics.end()}; }
+  std::vector<InvariantInfo> invariant_info() const override { return model_.invariant_info(); }
+  std::vector<double> breaks() const override { return model_.breaks(); }
+  std::string_view load_class() const override { return model_.load_class(); }
+  double time_scale() const override { return model_.time_scale(); }
+  std::vector<Named> observe(const std::vector<double>& state) const override {
+    return model_.observe(model_.restore(state));
+  }
+  std::vector<double> distance(const std::vector<double>& state, const std::vector<double>& reference) const override {
+    const auto d = model_.distance(model_.restore(state), model_.restore(reference));
+    return {d.begin(), d.end()};
+  }
+  ReferenceStates reference(const std::vector<double>& times) const override {
+    return reference_states(model_, times);
+  }
+  bool has_exact() const override { return HasExact<M>; }
+
+ private:
+  M model_;
+};
+
+template <Model M>
+std::shared_ptr<const AnyModel> box(M model) {
+  return std::make_shared<ModelBox<M>>(std::move(model));
+}
+
+}  // namespace gnomon

@@ -1,0 +1,92 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "src/any_model.hpp"
+#include "src/run.hpp"
+#include "src/scheme.hpp"
+
+namespace gnomon {
+
+class Section;
+
+/// What a model's reader makes of a scene.
+struct ParsedModel {
+  std::shared_ptr<const AnyModel> model;
+  std::shared_ptr<const nlohmann::ordered_json> resolved;  ///< every key with its value, defaults included
+  std::vector<std::string> warnings;
+};
+
+/// A model as scenes name it: how its part of a scene file is read.
+struct ModelEntry {
+  std::string_view name;
+  std::string_view summary;
+  std::string_view citation;
+  ParsedModel (*read)(Section& root, double t_end);
+};
+
+/// One valid pair of scheme and model type.
+struct Pair {
+  std::string_view scheme;
+  std::string_view model;
+  std::string_view variant;
+  std::type_index model_type;
+  RunResult (*run)(const void* model, const RunSpec& spec);
+};
+
+template <class... T>
+struct TypeList {};
+
+/// Everything that exists: the models, the schemes and which of them go together.
+struct Catalogue {
+  std::vector<ModelEntry> models;
+  std::vector<SchemeInfo> schemes;
+  std::vector<std::string> scene_folders;  ///< of the shipped scenes
+  std::vector<Pair> pairs;
+  /// Number of model types of a model, to tell whether a scheme runs all of them.
+  int variants(std::string_view model) const;
+
+  const SchemeInfo* scheme(std::string_view name) const;
+  const Pair* pair(std::string_view scheme, const AnyModel& model) const;
+  /// The schemes that run on a model; negative controls are left out.
+  std::vector<const SchemeInfo*> schemes_for(const AnyModel& model) const;
+
+  std::vector<std::pair<std::string_view, std::type_index>> model_types;
+};
+
+namespace detail {
+
+template <Model M, class S>
+RunResult run_pair(const void* model, const RunSpec& spec) {
+  return run<M, S>(*static_cast<const M*>(model), spec);
+}
+
+template <class S, class... M>
+void add_scheme(Catalogue& catalogue, TypeList<M...>) {
+  catalogue.schemes.push_back(S::info);
+  const auto add_one = [&]<class One>(TypeList<One>) {
+    if constexpr (Runs<S, One>)
+      catalogue.pairs.push_back({S::info.name, One::model_name, One::variant, typeid(One), run_pair<One, S>});
+  };
+  (add_one(TypeList<M>{}), ...);
+}
+
+}  // namespace detail
+
+/// Adds the schemes of a list with every model of another that they run on.
+template <class Models, class... S>
+void add_schemes(Catalogue& catalogue, TypeList<S...>) {
+  (detail::add_scheme<S>(catalogue, Models{}), ...);
+}
+
+template <class... M>
+void add_model_types(Catalogue& catalogue, TypeList<M...>) {
+  (catalogue.model_types.push_back({M::model_name, typeid(M)}), ...);
+}
+
+}  // namespace gnomon

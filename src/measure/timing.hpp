@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace gnomon {
+
+/// Times of one run, in seconds. NaN without repetitions.
+struct TimingStats {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double median = none;
+  double min =
+      none;  ///< the best estimate for a deterministic program: disturbances only add (Chen & Revels 2016)
+  double max = none;
+  double mdape = none;  ///< median(|x - median|) / median
+  int repetitions = 0;
+  bool unstable = false;  ///< mdape > 0.05
+};
+
+TimingStats summarise(const std::vector<double>& seconds);
+
+/// CPU time used by the calling thread, in seconds.
+double thread_cpu_seconds();
+
+/// What one call of thread_cpu_seconds costs here, in seconds: the minimum over several batches.
+double timer_cost();
+
+/// One integration to be timed.
+struct TimedTask {
+  /// Integrates once and returns the thread CPU seconds of the integration alone, without set-up and output;
+  /// not finite if the integration failed.
+  std::function<double()> run;
+};
+
+struct TimingPlan {
+  int repetitions = 5;
+  double min_seconds = 0.02;  ///< shorter runs are batched: a repetition then is the mean over the batch
+  double budget_seconds = std::numeric_limits<double>::infinity();  ///< for all tasks, set-up included
+  double timer_cost = 0.0;                                          ///< subtracted from every run
+  std::uint64_t seed = 1;                                           ///< of the batch lengths
+  std::function<double()> clock = thread_cpu_seconds;  ///< what the budget is measured with, seconds
+};
+
+/// Times the tasks in turn, one repetition each and then the next round, so that a change of the machine's
+/// speed meets all alike. The first calls of each are discarded (one, more if it is too short to be timed)
+/// and set how many make a batch; up to a fifth more are added at random so that batches do not lock to a
+/// periodic disturbance. A new round starts only if the last one would fit into what is left of the budget;
+/// the first always runs. A task that fails is not called again. `stop`, if set, is asked before every call;
+/// when it says true, what is finished is returned.
+std::vector<TimingStats> measure_interleaved(const std::vector<TimedTask>& tasks, const TimingPlan& plan,
+                                             const std::function<bool()>& stop);
+
+}  // namespace gnomon

@@ -1,0 +1,78 @@
+#pragma once
+// From a figure's data to what is drawn where.
+
+#include <string>
+#include <vector>
+
+#include "src/output/figure.hpp"
+#include "src/output/figure_axis.hpp"
+#include "src/output/figure_labels.hpp"
+#include "src/output/figure_style.hpp"
+
+namespace gnomon::output {
+
+enum class Anchor { left, centre, right };
+
+/// A line of text, vertically centred at `at`.
+struct Text {
+  Point at;
+  Anchor anchor = Anchor::left;
+  std::string text;
+  double size = 15.0;
+  std::string colour = "#000000";
+  bool upwards = false;
+};
+
+struct Stroke {
+  Point from;
+  Point to;
+  std::string colour = "#000000";
+  double width = 1.0;
+  std::string dash = "solid";
+};
+
+struct Mark {
+  Point at;
+  int type = 7;
+  std::string colour = "#000000";
+};
+
+/// Points in data coordinates.
+struct Curve {
+  std::string label;
+  SeriesStyle style;
+  double line_width = 1.8;
+  std::vector<std::vector<Point>> pieces;  ///< see Series::y and Series::hollow for where it breaks
+  std::vector<Point> filled;               ///< where markers stand
+  std::vector<Point> hollow;
+};
+
+struct Decoration {
+  std::vector<Text> texts;
+  std::vector<Stroke> strokes;
+  std::vector<Mark> marks;
+};
+
+struct DrawnPanel {
+  Box frame;
+  Axis x;
+  Axis y;
+  bool y_labels = true;
+  std::vector<Curve> curves;
+  Decoration decoration;
+};
+
+/// Lengths in pixels of the SVG, y upwards from the bottom.
+struct Drawing {
+  double width = 900.0;
+  double height = 600.0;
+  std::vector<DrawnPanel> panels;
+  Decoration decoration;              ///< title, key and notes
+  std::vector<std::string> left_out;  ///< as in FigureResult
+};
+
+/// One panel names its curves at their ends if all names find a place, else in a key at the right; several
+/// panels have one key below them. Throws std::invalid_argument if lengths of a series differ.
+Drawing lay_out(const Figure& figure);
+
+}  // namespace gnomon::output

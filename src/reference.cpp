@@ -1,0 +1,74 @@
+#include "src/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "src/output/files.hpp"
+
+namespace gnomon {
+namespace {
+
+// Raised whenever the way references are computed changes.
+constexpr int format_version = 1;
+
+std::string key_text(const Scene& scene, const std::vector<double>& times) {
+  std::string text = fmt::format("gnomon reference {} {}", format_version, scene.physics_hash());
+  for (double t : times) text += fmt::format(" {:.17g}", t);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const Scene& scene, const ReferenceStates& reference, const std::string& key) {
+  return {{"key", key},
+          {"scene", scene.resolved},
+          {"kind", reference.kind},
+          {"methods", reference.methods},
+          {"times", reference.times},
+          {"states", reference.states},
+          {"bounds", reference.bounds},
+          {"message", reference.message}};
+}
+
+bool read(const std::string& path, const std::string& key, ReferenceStates& reference) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return false;
+  try {
+    const auto json = nlohmann::json::parse(output::read_file(path));
+    if (json.at("key") != key) return false;
+    json.at("kind").get_to(reference.kind);
+    json.at("methods").get_to(reference.methods);
+    json.at("times").get_to(reference.times);
+    json.at("states").get_to(reference.states);
+    json.at("bounds").get_to(reference.bounds);
+    json.at("message").get_to(reference.message);
+    return reference.kind.empty() ||
+           (reference.states.size() == reference.times.size() && reference.bounds.size() == reference.times.size());
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector<double>& times) {
+  const std::string key = key_text(scene, times);
+  if (const auto known = memory_.find(key); known != memory_.end()) return known->second;
+  ReferenceStates reference;
+  if (scene.model->has_exact() || folder_.empty()) {
+    reference = scene.model->reference(times);
+  } else {
+    const std::string path = fmt::format("{}/{}.json", folder_, hash_text(key));
+    if (!read(path, key, reference)) {
+      reference = scene.model->reference(times);
+      try {
+        output::write_file_atomically(path, to_json(scene, reference, key).dump(1) + "\n");
+      } catch (const std::runtime_error&) {
+        // A cache that cannot be written costs time, not correctness.
+      }
+    }
+  }
+  return memory_.emplace(key, std::move(reference)).first->second;
+}
+
+}  // namespace gnomon

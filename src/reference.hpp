@@ -1,0 +1,26 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/reference_states.hpp"
+#include "src/scene.hpp"
+
+namespace gnomon {
+
+/// Obtains references and keeps the certified ones as small files beside the build, by the hash of the scene's physics
+/// and the times. A file that does not fit, or is damaged, is computed anew.
+class ReferenceStore {
+ public:
+  /// An empty folder name keeps nothing.
+  explicit ReferenceStore(std::string folder) : folder_(std::move(folder)) {}
+  /// States at ascending times. Kept in memory too.
+  const ReferenceStates& get(const Scene& scene, const std::vector<double>& times);
+
+ private:
+  std::string folder_;
+  std::map<std::string, ReferenceStates> memory_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,113 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "src/certify.hpp"
+#include "src/model.hpp"
+#include "src/ode.hpp"
+
+namespace gnomon {
+
+/// Reference states at some times, each with a bound of its error in every metric of the model.
+struct ReferenceStates {
+  std::string kind;  ///< "analytic", "certified", or empty: there is none, and message says why
+  std::vector<std::string> methods;
+  std::vector<double> times;
+  std::vector<std::vector<double>> states;  ///< flattened, one a time
+  std::vector<std::vector<double>> bounds;  ///< one a time and metric
+  std::string message;
+};
+
+/// A model whose rates can be evaluated in extended precision.
+template <class M>
+concept HasExtendedOde = HasOde<M> && requires(const M& model, long double t, const long double* y, long double* rate) {
+  model.extended_rhs(t, y, rate);
+};
+
+namespace detail {
+
+/// At a break the data belong to what comes after; a segment that ends there sees the limit from its own side.
+template <class Real>
+Real one_sided(Real t, double segment_end) {
+  return t < Real(segment_end) ? t : Real(std::nextafter(segment_end, -std::numeric_limits<double>::infinity()));
+}
+
+template <HasOde M, class Real>
+ReferenceStates certified_states(const M& model, const std::vector<double>& times, long max_evaluations) {
+  const auto form = model.ode();
+  const std::size_t n = static_cast<std::size_t>(form.size());
+  std::vector<double> start(n);
+  form.pack(model.initial(), start.data());
+  const std::vector<double> scales = form.scales(), breaks = model.breaks();
+
+  CertifyProblem<Real> problem;
+  problem.y0.assign(start.begin(), start.end());
+  problem.scale.assign(scales.begin(), scales.end());
+  problem.outputs.assign(times.begin(), times.end());
+  problem.breaks.assign(breaks.begin(), breaks.end());
+  const auto rhs = [&](int segment, Real t, const Real* y, Real* rate) {
+    const std::size_t next = static_cast<std::size_t>(segment);
+    const Real at = next < breaks.size() ? one_sided(t, breaks[next]) : t;
+    if constexpr (std::is_same_v<Real, double>) form.rhs(at, y, rate);
+    else model.extended_rhs(at, y, rate);
+  };
+  CertifyOptions<Real> options;
+  options.max_evaluations = max_evaluations;
+  const Certified<Real> solution = certify(rhs, problem, options);
+
+  const auto state_of = [&](const std::vector<Real>& y) {
+    const std::vector<double> rounded(y.begin(), y.end());
+    return form.unpack(rounded.data());
+  };
+  ReferenceStates reference;
+  reference.methods = solution.methods;
+  reference.times = times;
+  reference.message = solution.message;
+  if (!solution.converged) return reference;
+  reference.kind = "certified";
+  for (const auto& y : solution.tight) reference.states.push_back(model.flatten(state_of(y)));
+  reference.bounds.assign(times.size(), std::vector<double>(M::metrics.size()));
+  for (std::size_t metric = 0; metric < M::metrics.size(); ++metric) {
+    const auto distance = [&](const std::vector<Real>& a, const std::vector<Real>& b) {
+      return static_cast<Real>(model.distance(state_of(a), state_of(b))[metric]);
+    };
+    // The states are rounded to double: a few units in the last place.
+    const std::vector<Real> bounds = error_bounds(solution, distance, Real(8 * std::numeric_limits<double>::epsilon()));
+    for (std::size_t k = 0; k < times.size(); ++k) reference.bounds[k][metric] = static_cast<double>(bounds[k]);
+  }
+  return reference;
+}
+
+}  // namespace detail
+
+/// The closed form where the model has one, else the certified solution of its ODE form, in extended precision where
+/// the model's rates allow it. `times` ascend.
+template <Model M>
+ReferenceStates reference_states(const M& model, const std::vector<double>& times, long max_evaluations = 50'000'000) {
+  if constexpr (HasExact<M>) {
+    ReferenceStates reference;
+    reference.kind = "analytic";
+    reference.methods = {"closed form in extended precision"};
+    reference.times = times;
+    for (double t : times) {
+      const Exact<M> exact = model.exact(t);
+      reference.states.push_back(model.flatten(exact.state));
+      reference.bounds.emplace_back(exact.bound.begin(), exact.bound.end());
+    }
+    return reference;
+  } else if constexpr (HasExtendedOde<M>) {
+    return detail::certified_states<M, long double>(model, times, max_evaluations);
+  } else if constexpr (HasOde<M>) {
+    return detail::certified_states<M, double>(model, times, max_evaluations);
+  } else {
+    ReferenceStates none;
+    none.message = "the model has neither a closed form nor an ODE form";
+    return none;
+  }
+}
+
+}  // namespace gnomon

@@ -1,0 +1,67 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
+
+#include "src/error.hpp"
+
+namespace gnomon {
+
+/// Where a value of a scene came from, for messages.
+struct SceneSource {
+  std::string file;                              ///< as the user wrote it
+  std::map<std::string, std::string> overrides;  ///< key path -> the --set option that wrote it
+};
+
+/// One table of a scene file, read strictly: every key that is asked for is checked for type and range, and `finish`
+/// refuses the keys that nobody asked for. All failures are UsageErrors "file:line: key: found .., expected ..".
+class Section {
+ public:
+  Section(const toml::table& table, std::string path, const SceneSource& source);
+
+  bool has(std::string_view key) const;
+  double number(std::string_view key, std::string_view expected);
+  double number_or(std::string_view key, double fallback, std::string_view expected);
+  double positive(std::string_view key, std::string_view expected);
+  /// Exactly `count` finite numbers.
+  std::vector<double> numbers(std::string_view key, std::size_t count, std::string_view expected);
+  /// Makes a key that is absent known, and gives its default.
+  std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback, std::string_view expected);
+  std::string text(std::string_view key, std::string_view expected);
+  std::string one_of(std::string_view key, const std::vector<std::string>& choices);
+  /// A table inside this one; none when the key is absent.
+  std::optional<Section> section(std::string_view key);
+  /// Exactly one of two keys must be there; returns it.
+  std::string exactly_one(std::string_view first, std::string_view second, std::string_view meaning);
+
+  /// Refuses unknown keys; suggests the nearest known one.
+  void finish() const;
+
+  /// Reports a value of this table that is wrong for a reason only the model knows.
+  [[noreturn]] void fail(std::string_view key, std::string_view found, std::string_view expected) const;
+  /// The value of a key as it stands in the file, shortened for messages.
+  std::string shown(std::string_view key) const;
+
+ private:
+  const toml::node* find(std::string_view key);
+  const toml::node& require(std::string_view key, std::string_view expected);
+  double finite(const toml::node& node, std::string_view key, std::string_view expected) const;
+  std::string where(std::string_view key) const;
+  std::string full(std::string_view key) const;
+
+  const toml::table* table_;
+  std::string path_;
+  const SceneSource* source_;
+  std::vector<std::string> known_;
+};
+
+/// The known word nearest to a misspelt one, or empty when none is near.
+std::string nearest(std::string_view word, const std::vector<std::string>& known);
+
+}  // namespace gnomon

@@ -1,0 +1,346 @@
+#include "src/measure/order.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+using gnomon::observe_order;
+using gnomon::ObservedOrder;
+using gnomon::OrderOptions;
+using gnomon::OrderPoint;
+
+namespace {
+
+class Uniform {
+ public:
+  explicit Uniform(std::uint64_t seed) : engine_(seed) {}
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+struct Curve {
+  double order = 4.0;
+  double constant = 0.1;
+  double next = 0.0;   // a in C h^p (1 + a h^2)
+  double noise = 0.0;  // relative, uniform
+  double floor = 0.0;  // added, between a tenth of it and all of it
+  double ratio = std::sqrt(2.0);
+  int points = 16;
+  std::uint64_t seed = 1;
+};
+
+std::vector<OrderPoint> sample(const Curve& curve) {
+  Uniform uniform(curve.seed);
+  std::vector<OrderPoint> points;
+  for (int k = 0; k < curve.points; ++k) {
+    const double h = 0.5 * std::pow(curve.ratio, -k);
+    const double clean = curve.constant * std::pow(h, curve.order) * (1.0 + curve.next * h * h);
+    const double noisy = clean * (1.0 + curve.noise * uniform(-1.0, 1.0));
+    points.push_back({h, noisy + curve.floor * uniform(0.1, 1.0), true, ""});
+  }
+  return points;
+}
+
+OrderOptions with_scale_one() {
+  OrderOptions options;
+  options.scale = 1.0;
+  return options;
+}
+
+double least_squares_over_all(const std::vector<OrderPoint>& points) {
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  const auto n = static_cast<double>(points.size());
+  for (const OrderPoint& p : points) {
+    x += std::log(p.step) / n;
+    y += std::log(p.error) / n;
+  }
+  for (const OrderPoint& p : points) {
+    xx += (std::log(p.step) - x) * (std::log(p.step) - x);
+    xy += (std::log(p.step) - x) * (std::log(p.error) - y);
+  }
+  return xy / xx;
+}
+
+bool refused(const ObservedOrder& result) {
+  return !result.observed && result.points == 0 && std::isnan(result.interval[0]) &&
+         std::isnan(result.step_from) && result.verdict.starts_with("not asymptotic: ");
+}
+
+// Errors that fall from `first` with the given local slopes at steps that halve.
+std::vector<double> falling(double first, const std::vector<double>& slopes) {
+  std::vector<double> errors{first};
+  for (const double slope : slopes) errors.push_back(errors.back() * std::exp2(-slope));
+  return errors;
+}
+
+std::vector<OrderPoint> from_errors(const std::vector<double>& errors) {
+  std::vector<OrderPoint> points;
+  for (std::size_t k = 0; k < errors.size(); ++k)
+    points.push_back({std::ldexp(1.0, -static_cast<int>(k)), errors[k], true, ""});
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("measure: a clean power law gives its order exactly, with every point in the window") {
+  for (int p = 1; p <= 10; ++p) {
+    const ObservedOrder result = observe_order(sample({.order = static_cast<double>(p)}), with_scale_one());
+    REQUIRE(result.observed);
+    CHECK(std::abs(*result.observed - p) <= 1e-9);
+    CHECK(std::abs(result.interval[0] - p) <= 1e-9);
+    CHECK(std::abs(result.interval[1] - p) <= 1e-9);
+    CHECK(result.points == 16);
+    CHECK(result.step_from == 0.5);
+    CHECK(std::abs(result.step_to - 0.5 * std::pow(2.0, -7.5)) <= 1e-12);
+    CHECK(result.dropped.empty());
+  }
+}
+
+TEST_CASE("measure: orders 1 to 10 are found above floors of 1e-16 to 1e-10") {
+  const bool known = GENERATE(true, false);
+  int numbers = 0, refusals = 0;
+  for (int p = 1; p <= 10; ++p) {
+    for (const double floor : {1e-16, 1e-14, 1e-12, 1e-10}) {
+      const auto points = sample({.order = static_cast<double>(p), .constant = 1.0, .floor = floor});
+      OrderOptions options = with_scale_one();
+      if (known) options.floor = 10.0 * floor;
+      int above = 0;  // points that the floor alters by less than 1 %
+      for (const OrderPoint& point : points)
+        above += point.error < 0.1 && std::pow(point.step, p) > 100.0 * floor;
+      const ObservedOrder result = observe_order(points, options);
+      INFO("p " << p << " floor " << floor << " above " << above << ": " << result.verdict);
+      if (result.observed) {
+        ++numbers;
+        CHECK(std::abs(*result.observed - p) <= 0.1);
+        CHECK(result.points >= 4);
+        CHECK(result.points + static_cast<int>(result.dropped.size()) == 16);
+      } else {
+        ++refusals;
+        CHECK(refused(result));
+        // Without knowing the floor, its beginning at the end of the ladder may pass for another order.
+        CHECK((above < 4 || !known));
+      }
+    }
+  }
+  CHECK(numbers >= 36);
+  CHECK(numbers + refusals == 40);
+}
+
+TEST_CASE(
+    "measure: least squares over all points is wrong for orders 6 and 8 with a floor, the window right") {
+  for (const int p : {6, 8}) {
+    const auto points =
+        sample({.order = static_cast<double>(p), .constant = 1.0, .next = 0.5, .floor = 1e-12});
+    const ObservedOrder result = observe_order(points, with_scale_one());
+    REQUIRE(result.observed);
+    CHECK(std::abs(*result.observed - p) <= 0.1);
+    CHECK(least_squares_over_all(points) < p - 0.5);
+    CHECK(result.dropped.back().reason == "beyond the window");
+    // Without the floor both agree: it is the floor that misleads least squares.
+    const auto clean = sample({.order = static_cast<double>(p), .constant = 1.0});
+    CHECK(std::abs(least_squares_over_all(clean) - p) <= 1e-9);
+  }
+}
+
+TEST_CASE("measure: pre-asymptotic points are left out of the window") {
+  for (int p = 1; p <= 8; ++p) {
+    const auto points = sample({.order = static_cast<double>(p), .constant = 1e-3, .next = 10.0});
+    const ObservedOrder result = observe_order(points, with_scale_one());
+    REQUIRE(result.observed);
+    CHECK(std::abs(*result.observed - p) <= 0.1);
+    CHECK(result.step_from < 0.2);
+    CHECK(result.step_to == points.back().step);
+    REQUIRE_FALSE(result.dropped.empty());
+    CHECK(result.dropped.front().reason == "before the window");
+    const double first_slope = std::log(points[0].error / points[1].error) / std::log(std::sqrt(2.0));
+    CHECK(first_slope > p + 1.0);
+  }
+}
+
+TEST_CASE("measure: noise widens the interval, and beyond the tolerance it is refused rather than guessed") {
+  int refusals = 0;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    for (const int p : {2, 4, 8}) {
+      Curve curve{.order = static_cast<double>(p), .noise = 0.05, .ratio = 2.0, .points = 10, .seed = seed};
+      const ObservedOrder quiet = observe_order(sample(curve), with_scale_one());
+      REQUIRE(quiet.observed);
+      CHECK(std::abs(*quiet.observed - p) <= 0.05);
+      CHECK(quiet.interval[0] <= *quiet.observed);
+      CHECK(quiet.interval[1] >= *quiet.observed);
+      CHECK(quiet.interval[1] - quiet.interval[0] >= 1e-3);
+
+      curve.noise = 0.2;
+      const auto points = sample(curve);
+      const ObservedOrder loud = observe_order(points, with_scale_one());
+      if (loud.observed)
+        CHECK(std::abs(*loud.observed - p) <= 0.3);
+      else
+        ++refusals;
+      OrderOptions tolerant = with_scale_one();
+      tolerant.window_tolerance = 0.6;  // > log2(1.2 / 0.8)
+      const ObservedOrder fitted = observe_order(points, tolerant);
+      REQUIRE(fitted.observed);
+      CHECK(std::abs(*fitted.observed - p) <= 0.15);
+    }
+  }
+  CHECK(refusals >= 10);
+  CHECK(refusals <= 140);
+}
+
+TEST_CASE("measure: curves without an asymptotic range get no order") {
+  Uniform uniform(3);
+  std::vector<double> scatter, sawtooth, flat, rising;
+  for (int k = 0; k < 16; ++k) {
+    scatter.push_back(std::exp(uniform(-12.0, -2.0)));
+    sawtooth.push_back(std::ldexp(1e-2, -2 * k) * (k % 2 == 0 ? 1.0 : 4.0));
+    flat.push_back(1e-5 * (1.0 + 0.01 * k));
+    rising.push_back(std::ldexp(1e-12, k));
+  }
+  CHECK(refused(observe_order(from_errors(scatter), with_scale_one())));
+  CHECK(refused(observe_order(from_errors(sawtooth), with_scale_one())));
+  CHECK(observe_order(from_errors(sawtooth), with_scale_one()).verdict ==
+        "not asymptotic: no 4 successive points share a slope to within 0.25");
+  CHECK(refused(observe_order(from_errors(flat), with_scale_one())));
+  CHECK(observe_order(from_errors(flat), with_scale_one()).verdict ==
+        "not asymptotic: the error does not fall with the step");
+  CHECK(refused(observe_order(from_errors(rising), with_scale_one())));
+}
+
+TEST_CASE("measure: a long floor does not outvote a short asymptotic range") {
+  std::vector<double> errors;
+  for (int k = 0; k < 5; ++k) errors.push_back(std::ldexp(1e-2, -4 * k));
+  for (int k = 0; k < 11; ++k) errors.push_back(errors.back());
+  const ObservedOrder result = observe_order(from_errors(errors), with_scale_one());
+  REQUIRE(result.observed);
+  CHECK(std::abs(*result.observed - 4.0) <= 1e-9);
+  CHECK(result.points == 5);
+  CHECK(result.dropped.size() == 11);
+}
+
+TEST_CASE("measure: scatter at a floor behind a few steep points is no order") {
+  // Order 8 for three points, then scatter in which four points happen to line up at a slope of 0.5.
+  const ObservedOrder result = observe_order(
+      from_errors({1e-2, 4e-5, 1.5e-7, 3e-12, 2.1e-12, 1.5e-12, 1.06e-12, 3e-12, 1e-13}), with_scale_one());
+  CHECK(refused(result));
+  CHECK(result.verdict.find("a floor?") != std::string::npos);
+  // The same with a long, nearly flat stretch.
+  const auto flat = falling(1e-2, {8.0, 8.0, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3});
+  CHECK(refused(observe_order(from_errors(flat), with_scale_one())));
+}
+
+TEST_CASE("measure: an order that changes inside the ladder is not reported") {
+  std::vector<double> errors;
+  for (int k = 0; k < 8; ++k) errors.push_back(std::ldexp(1e-2, -4 * k));
+  const double corner = errors.back();
+  for (int k = 1; k <= 4; ++k) errors.push_back(corner * std::ldexp(1.0, -k));
+  const ObservedOrder changing = observe_order(from_errors(errors), with_scale_one());
+  CHECK(refused(changing));
+  CHECK(changing.verdict.find("order 4.00 turns into 1.00") != std::string::npos);
+  // The longer range wins if it lies at the smaller steps: coarse points are pre-asymptotic, whatever they
+  // do.
+  for (int k = 5; k <= 12; ++k) errors.push_back(corner * std::ldexp(1.0, -k));
+  const ObservedOrder settled = observe_order(from_errors(errors), with_scale_one());
+  REQUIRE(settled.observed);
+  CHECK(std::abs(*settled.observed - 1.0) <= 1e-9);
+  CHECK(settled.points == 13);
+
+  // Leaving the order slowly, without reaching a floor, is no asymptotic range either.
+  const auto leaving = falling(1e-2, {6.0, 6.0, 6.0, 6.0, 5.2, 4.6, 4.2});
+  CHECK(refused(observe_order(from_errors(leaving), with_scale_one())));
+}
+
+TEST_CASE("measure: a floor or irregular points beyond the window do not spoil it") {
+  const std::vector<std::vector<double>> tails{
+      {1.0, 2.5, -4.0},      // falls by less than half the order in all
+      {0.5, 0.5, 7.0},       // a floor with a lucky zero at its end
+      {5.0, 3.0, 4.6, 3.4},  // irregular, but at the same order in all
+      {3.0, 2.5}             // too short to tell
+  };
+  for (const auto& tail : tails) {
+    std::vector<double> slopes(6, 4.0);
+    slopes.insert(slopes.end(), tail.begin(), tail.end());
+    const ObservedOrder result = observe_order(from_errors(falling(1e-2, slopes)), with_scale_one());
+    INFO(result.verdict);
+    REQUIRE(result.observed);
+    CHECK(std::abs(*result.observed - 4.0) <= 1e-9);
+    CHECK(result.points == 7);
+    CHECK(result.dropped.size() == tail.size());
+  }
+}
+
+TEST_CASE("measure: one irregular point splits the ladder and the smaller steps win the tie") {
+  std::vector<double> errors;
+  for (int k = 0; k < 9; ++k) errors.push_back(std::ldexp(1e-2, -3 * k));
+  errors[4] *= 1e-3;  // a lucky change of the error's sign
+  const ObservedOrder result = observe_order(from_errors(errors), with_scale_one());
+  REQUIRE(result.observed);
+  CHECK(std::abs(*result.observed - 3.0) <= 1e-9);
+  CHECK(result.points == 4);
+  CHECK(result.step_from == std::ldexp(1.0, -5));
+  CHECK(result.step_to == std::ldexp(1.0, -8));
+}
+
+TEST_CASE("measure: points that cannot count are dropped with their reason") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<OrderPoint> points = sample({.order = 2.0, .constant = 0.01, .ratio = 2.0, .points = 6});
+  points.push_back({8.0, 0.2, true, ""});
+  points.push_back({4.0, 1e-3, false, "misses the break at 2.5"});
+  points.push_back({2.0, nan, true, ""});
+  points.push_back({1e-3, 0.0, true, ""});
+  points.push_back({1e-4, 4e-9, true, ""});
+  points.push_back({1e-5, 3e-8, true, ""});
+  points.push_back({0.25, 1e-3, true, ""});
+  points.push_back({nan, 1e-3, true, ""});
+  points.push_back({-1.0, 1e-3, false, ""});
+  OrderOptions options = with_scale_one();
+  options.bound = 1e-9;
+  options.floor = 4e-8;
+  const ObservedOrder result = observe_order(points, options);
+  REQUIRE(result.observed);
+  CHECK(std::abs(*result.observed - 2.0) <= 1e-9);
+  CHECK(result.points == 6);
+  std::vector<std::string> reasons;
+  for (const auto& dropped : result.dropped) reasons.push_back(dropped.reason);
+  CHECK(reasons == std::vector<std::string>{"pre-asymptotic: the error is a tenth of the scale or more",
+                                            "misses the break at 2.5", "the error is not a number",
+                                            "the step occurs twice", "the error is zero: below every floor",
+                                            "within ten times the reference's error bound", "below the floor",
+                                            "not usable", "the step is not a positive number"});
+}
+
+TEST_CASE("measure: fewer points than asked for give no order") {
+  const auto points = sample({.order = 4.0, .points = 5});
+  CHECK(observe_order(points, with_scale_one()).points == 5);
+  OrderOptions options = with_scale_one();
+  options.min_points = 6;
+  CHECK(refused(observe_order(points, options)));
+  CHECK(observe_order(points, options).verdict == "not asymptotic: 5 of the points can count, 6 are needed");
+  CHECK(refused(observe_order({}, with_scale_one())));
+  options.min_points = 0;  // two points always lie on a line
+  CHECK(refused(observe_order({points[0], points[1]}, options)));
+  CHECK(observe_order({points[0], points[1], points[2]}, options).points == 3);
+}
+
+TEST_CASE("measure: the order does not depend on how the points are sorted") {
+  auto points = sample({.order = 3.0, .next = 2.0, .noise = 0.02, .floor = 1e-9});
+  const ObservedOrder sorted = observe_order(points, with_scale_one());
+  Uniform uniform(9);
+  for (std::size_t i = points.size(); i > 1; --i)
+    std::swap(points[i - 1], points[static_cast<std::size_t>(uniform(0.0, static_cast<double>(i)))]);
+  const ObservedOrder shuffled = observe_order(points, with_scale_one());
+  REQUIRE(sorted.observed);
+  CHECK(shuffled.observed == sorted.observed);
+  CHECK(shuffled.step_from == sorted.step_from);
+  CHECK(shuffled.dropped.size() == sorted.dropped.size());
+}

@@ -1,0 +1,62 @@
+#include "src/measure/work.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+using gnomon::cost_at;
+using gnomon::pareto_front;
+using gnomon::WorkPoint;
+
+TEST_CASE("measure: cost at an error is interpolated in logarithms") {
+  // cost = error^(-1/4): a method of order 4
+  std::vector<WorkPoint> curve;
+  for (int k = 2; k <= 10; k += 2) curve.push_back({std::pow(10.0, -k), std::pow(10.0, 0.25 * k)});
+  for (const double error : {1e-3, 1e-4, 3e-7, 1e-10}) {
+    const auto cost = cost_at(curve, error);
+    REQUIRE(cost);
+    CHECK(std::abs(*cost - std::pow(error, -0.25)) <= 1e-12 * *cost);
+  }
+  CHECK_FALSE(cost_at(curve, 9e-11));
+  CHECK_FALSE(cost_at({}, 1e-3));
+}
+
+TEST_CASE("measure: a level reached by the loosest setting costs what that setting costs") {
+  const std::vector<WorkPoint> curve{{1e-5, 3.0}, {1e-7, 5.0}};
+  CHECK(cost_at(curve, 1e-2) == 3.0);
+  CHECK(cost_at(curve, 1e-5) == 3.0);
+}
+
+TEST_CASE("measure: a setting counts only if all tighter ones reach the level too") {
+  // The second setting is a lucky one: the third, tighter, is worse.
+  const std::vector<WorkPoint> curve{{1e-2, 1.0}, {1e-6, 2.0}, {1e-4, 4.0}, {1e-5, 8.0}};
+  const auto at_bottom = cost_at(curve, 1e-5);
+  REQUIRE(at_bottom);
+  CHECK(std::abs(*at_bottom - 8.0) <= 1e-12);
+  CHECK_FALSE(cost_at(curve, 1e-6));
+  // The envelope from the second setting on is 1e-4.
+  const auto at_envelope = cost_at(curve, 1e-4);
+  REQUIRE(at_envelope);
+  CHECK(std::abs(*at_envelope - 2.0) <= 1e-12);
+  const auto between = cost_at(curve, 1e-3);
+  REQUIRE(between);
+  CHECK(std::abs(*between - std::sqrt(2.0)) <= 1e-12);
+}
+
+TEST_CASE("measure: failed settings and zero errors do not break the cost curve") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(cost_at(std::vector<WorkPoint>{{nan, 1.0}, {1e-4, 2.0}}, 1e-3) == 2.0);
+  CHECK_FALSE(cost_at(std::vector<WorkPoint>{{1e-4, 2.0}, {nan, 4.0}}, 1e-3));
+  CHECK_FALSE(cost_at(std::vector<WorkPoint>{{1e-4, 2.0}, {1e-5, nan}}, 1e-3));
+  CHECK(cost_at(std::vector<WorkPoint>{{1e-2, 1.0}, {0.0, 2.0}}, 1e-3) == 2.0);
+}
+
+TEST_CASE("measure: the Pareto front keeps what nothing else beats") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<WorkPoint> points{{1e-2, 1.0}, {1e-3, 2.0}, {1e-3, 3.0}, {2e-3, 2.0},
+                                      {1e-5, 9.0}, {1e-5, 9.0}, {nan, 0.5},  {1e-9, nan}};
+  CHECK(pareto_front(points) == std::vector<bool>{true, true, false, false, true, true, false, false});
+  CHECK(pareto_front({}).empty());
+}

@@ -1,0 +1,111 @@
+#include "src/output/progress.hpp"
+
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "tests/catch.hpp"
+
+using namespace gnomon::output;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("output: durations are written for people") {
+  CHECK(duration(0.0) == "0 s");
+  CHECK(duration(59.4) == "59 s");
+  CHECK(duration(59.6) == "1 min 00 s");
+  CHECK(duration(70.0) == "1 min 10 s");
+  CHECK(duration(3599.6) == "1 h 00 min");
+  CHECK(duration(7500.0) == "2 h 05 min");
+  CHECK(duration(-1.0) == "unknown time");
+  CHECK(duration(std::numeric_limits<double>::infinity()) == "unknown time");
+}
+
+TEST_CASE("output: a live line counts, names the run and estimates the time left") {
+  double now = 0.0;
+  std::ostringstream out;
+  Progress progress(128, ProgressMode::live, out, 80, [&] { return now; });
+  progress.begin("free-top / munjiza  step 0.01");
+  CHECK(out.str() == "\r\033[K[  1/128] free-top / munjiza  step 0.01");
+  out.str("");
+  now = 1.0;
+  progress.begin("free-top / rkmk4");
+  CHECK(out.str() == "\r\033[K[  2/128] free-top / rkmk4  2 min 07 s left");
+  out.str("");
+  now = 200.0;
+  progress.finish();
+  CHECK(out.str() == "\r\033[K[  2/128] done in 3 min 20 s\n");
+  out.str("");
+  progress.finish();
+  CHECK(out.str().empty());
+}
+
+TEST_CASE("output: a live line never reaches the last column and keeps the time left") {
+  double now = 0.0;
+  std::ostringstream out;
+  Progress progress(2, ProgressMode::live, out, 30, [&] { return now; });
+  progress.begin("a");
+  now = 5.0;
+  out.str("");
+  progress.begin("a scene with a very long name / an integrator");
+  const std::string line = out.str().substr(std::string("\r\033[K").size());
+  CHECK(line.size() == 29);
+  CHECK(contains(line, "[2/2] a scene with"));
+  CHECK(contains(line, "  5 s left"));
+}
+
+TEST_CASE("output: plain lines come at most every ten seconds") {
+  double now = 0.0;
+  std::ostringstream out;
+  Progress progress(100, ProgressMode::lines, out, 0, [&] { return now; });
+  for (int i = 0; i < 100; ++i) {
+    progress.begin("run " + std::to_string(i));
+    now += 0.25;
+  }
+  CHECK(out.str() == "[  1/100] run 0\n[ 41/100] run 40  15 s left\n[ 81/100] run 80  5 s left\n");
+  progress.finish();
+  CHECK(contains(out.str(), "[100/100] done in 25 s\n"));
+}
+
+TEST_CASE("output: runs known already count but say nothing about the time left") {
+  double now = 0.0;
+  std::ostringstream out;
+  Progress progress(10, ProgressMode::live, out, 80, [&] { return now; });
+  progress.skip(6);
+  progress.begin("first");
+  CHECK(contains(out.str(), "[ 7/10] first"));
+  CHECK_FALSE(contains(out.str(), "left"));
+  now = 3.0;
+  progress.begin("second");
+  CHECK(contains(out.str(), "[ 8/10] second  9 s left"));
+  progress.finish();
+  CHECK(contains(out.str(), "[ 8/10] done in 3 s, 6 known already\n"));
+}
+
+TEST_CASE("output: quiet progress prints nothing") {
+  CHECK(progress_mode(true) == ProgressMode::silent);
+  CHECK(progress_mode(false) != ProgressMode::silent);
+  std::ostringstream out;
+  {
+    Progress progress(2, ProgressMode::silent, out);
+    progress.begin("a");
+    progress.begin("b");
+    progress.finish();
+  }
+  CHECK(out.str().empty());
+}
+
+TEST_CASE("output: a live line left by an exception is cleared, plain lines stay") {
+  std::ostringstream live;
+  { Progress(2, ProgressMode::live, live, 40).begin("a"); }
+  CHECK(live.str() == "\r\033[K[1/2] a\r\033[K");
+  std::ostringstream lines;
+  { Progress(2, ProgressMode::lines, lines).begin("a\nb"); }
+  CHECK(lines.str() == "[1/2] a b\n");
+}
