@@ -5,8 +5,9 @@
 namespace gnomon {
 
 /// The types of all models. A new model adds its types here and its reader in catalogue.cpp.
-using Models = TypeList<rigid_body::RigidBody<rigid_body::Free>, rigid_body::RigidBody<rigid_body::Gravity>,
-                        rigid_body::RigidBody<rigid_body::SpaceMoment>, rigid_body::RigidBody<rigid_body::BodyMoment>>;
+using Models =
+    TypeList<rigid_body::RigidBody<rigid_body::Free>, rigid_body::RigidBody<rigid_body::Gravity>,
+             rigid_body::RigidBody<rigid_body::SpaceMoment>, rigid_body::RigidBody<rigid_body::BodyMoment>>;
 
 /// Adds the models with their readers and the folders of their scenes.
 void add_models(Catalogue& catalogue);

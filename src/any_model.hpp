@@ -22,8 +22,12 @@ class AnyModel {
   virtual std::string_view load_class() const = 0;
   virtual double time_scale() const = 0;
   virtual std::vector<Named> observe(const std::vector<double>& state) const = 0;
-  virtual std::vector<double> distance(const std::vector<double>& state, const std::vector<double>& reference) const = 0;
-  /// Closed form, else two independent methods in extended precision; kind is empty where neither is to be had.
+  /// Values of all invariants one after the other.
+  virtual std::vector<double> invariants(double t, const std::vector<double>& state) const = 0;
+  virtual std::vector<double> distance(const std::vector<double>& state,
+                                       const std::vector<double>& reference) const = 0;
+  /// Closed form, else two independent methods in extended precision; kind is empty where neither is to be
+  /// had.
   virtual ReferenceStates reference(const std::vector<double>& times) const = 0;
   virtual bool has_exact() const = 0;
 };
@@ -42,7 +46,15 @@ class ModelBox final : public AnyModel {
   std::vector<Named> observe(const std::vector<double>& state) const override {
     return model_.observe(model_.restore(state));
   }
-  std::vector<double> distance(const std::vector<double>& state, const std::vector<double>& reference) const override {
+  std::vector<double> invariants(double t, const std::vector<double>& state) const override {
+    std::size_t count = 0;
+    for (const InvariantInfo& info : model_.invariant_info()) count += static_cast<std::size_t>(info.size);
+    std::vector<double> values(count);
+    model_.invariants(t, model_.restore(state), values.data());
+    return values;
+  }
+  std::vector<double> distance(const std::vector<double>& state,
+                               const std::vector<double>& reference) const override {
     const auto d = model_.distance(model_.restore(state), model_.restore(reference));
     return {d.begin(), d.end()};
   }

@@ -5,8 +5,8 @@
 namespace gnomon {
 
 int Catalogue::variants(std::string_view model) const {
-  return static_cast<int>(
-      std::count_if(model_types.begin(), model_types.end(), [&](const auto& entry) { return entry.first == model; }));
+  return static_cast<int>(std::count_if(model_types.begin(), model_types.end(),
+                                        [&](const auto& entry) { return entry.first == model; }));
 }
 
 const SchemeInfo* Catalogue::scheme(std::string_view name) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <typeindex>
@@ -39,6 +40,14 @@ struct Pair {
   RunResult (*run)(const void* model, const RunSpec& spec);
 };
 
+/// A library that integrators are built on, for the record of the environment.
+struct Library {
+  std::string name;
+  std::string version;
+  std::optional<bool> optimised;  ///< compiled with optimisation; not known for most
+  std::string build;              ///< its build record, may be empty
+};
+
 template <class... T>
 struct TypeList {};
 
@@ -48,6 +57,7 @@ struct Catalogue {
   std::vector<SchemeInfo> schemes;
   std::vector<std::string> scene_folders;  ///< of the shipped scenes
   std::vector<Pair> pairs;
+  std::vector<Library> libraries;
   /// Number of model types of a model, to tell whether a scheme runs all of them.
   int variants(std::string_view model) const;
 

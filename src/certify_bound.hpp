@@ -19,30 +19,30 @@ struct Distances {
   Real steps{};       ///< B fine to B coarse
 };
 
-/// Bounds on the error of A tight - and, by the same reasons, of B fine - one for each output time, in the
+/// Bounds on the error of A tight - and, for the same reasons, of B fine - one for each output time, in the
 /// unit of the distances:
 ///
 ///     bound = 2 (M + min(L, q S)) + floor,   M = methods, L = tolerances, S = steps,
 ///
-/// each distance being the largest up to that output time. Reasons:
-/// * e_A <= M + e_B (triangle inequality): where the methods are independent, M is the measure of both
-/// errors. It can only
-///   mislead where A and B are wrong in the same way, so one of the two must be seen to have a small error by
-///   itself.
-/// * L is the error of A *loose*, so it is an upper estimate of e_A, by the ratio of the tolerances too
-/// large; S likewise
-///   is the error of B *coarse*. e_B is estimated as q S with the measured contraction q of the last doubling
-///   of the steps, never with the nominal 2^-order; at the level of rounding q is about 1. One of the two
-///   estimates suffices for the triangle inequality, hence the smaller. If one method has not converged, M
-///   shows it.
-/// * The largest value up to the present time is used because a distance at one instant may vanish by chance.
-/// * The factor 2 covers estimates that are a little low, `floor` the rounding of the reference in this
-/// metric (say, the
-///   machine epsilon for an angle, epsilon times the size of a length).
-/// It is an estimate, not an enclosure: it cannot see what both methods share, which is the right-hand side
-/// with its rounding, the initial state, the output times and a feature so short that no node of either
-/// method meets it. step_contraction: q, taken as 1 if not in [0, 1]. A distance that is not a number gives
-/// an infinite bound from there on.
+/// each distance being the largest up to that output time.
+///
+/// Methods: e_A <= M + e_B (triangle inequality), so with independent methods M measures both errors. It can
+/// mislead only where A and B are wrong in the same way; one of the two must be seen to be right by itself.
+///
+/// Own convergence: L is the error of A loose, an upper estimate of e_A that is too large by the ratio of the
+/// tolerances. S is the error of B coarse, and q S estimates e_B with the contraction q measured at the last
+/// doubling of the steps, not with the nominal 2^-order; at the level of rounding q is about 1. One estimate
+/// suffices in the triangle inequality, hence the smaller; where the other method is bad, M shows it.
+///
+/// The largest value so far is used because a distance at one instant may vanish by chance. The factor 2
+/// covers estimates that are a little low, and `floor` the rounding of the reference itself in this metric
+/// (for an angle the machine epsilon, for a length epsilon times its size).
+///
+/// It is an estimate, not an enclosure. It cannot see what both methods share: the right-hand side with its
+/// rounding, the initial state, the output times, and a feature so short that no node of either meets it.
+///
+/// step_contraction: q, taken as 1 if not in [0, 1]. A distance that is not a number gives an infinite bound
+/// from there on.
 template <class Real>
 std::vector<Real> error_bounds(const std::vector<Distances<Real>>& distances, Real step_contraction,
                                Real floor) {

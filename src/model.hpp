@@ -37,23 +37,30 @@ struct Exact {
 };
 
 /// The one model interface. A model is a plain value; what else it can do it declares by the forms it offers:
-/// `ode()` (src/ode.hpp), `dae()`, the inertia and moment of a rotation (integrators/rotation/rotation.hpp), `exact(t)`.
+/// `ode()` (src/ode.hpp), `dae()`, the inertia and moment of a rotation (integrators/rotation/rotation.hpp),
+/// `exact(t)`.
 template <class M>
 concept Model = requires(const M& model, const typename M::State& state, double t, double* out,
                          const std::vector<double>& flat) {
   { M::model_name } -> std::convertible_to<std::string_view>;  // as scenes name it
-  { M::variant } -> std::convertible_to<std::string_view>;     // which of the types of that model; may be empty
+  { M::variant } -> std::convertible_to<std::string_view>;  // which of the types of that model; may be empty
   { M::metrics[0] } -> std::convertible_to<MetricInfo>;
   { model.initial() } -> std::same_as<typename M::State>;
-  { model.flatten(state) } -> std::same_as<std::vector<double>>;  // for storage; `restore` undoes it bit for bit
+  {
+    model.flatten(state)
+    } -> std::same_as<std::vector<double>>;  // for storage; `restore` undoes it bit for bit
   { model.restore(flat) } -> std::same_as<typename M::State>;
   { model.observe(state) } -> std::same_as<std::vector<Named>>;  // what JSON calls "state"
   { model.invariant_info() } -> std::same_as<std::vector<InvariantInfo>>;
-  { model.invariants(t, state, out) };  // their values one after the other; allocates nothing
-  { model.distance(state, state) } -> std::same_as<std::array<double, M::metrics.size()>>;  // (state, reference)
-  { model.breaks() } -> std::same_as<std::vector<double>>;                                  // where its data jump, s
+  {model.invariants(t, state, out)};  // their values one after the other; allocates nothing
+  {
+    model.distance(state, state)
+    } -> std::same_as<std::array<double, M::metrics.size()>>;       // (state, reference)
+  { model.breaks() } -> std::same_as<std::vector<double>>;          // where its data jump, s
   { model.load_class() } -> std::convertible_to<std::string_view>;  // decides which declared order applies
-  { model.time_scale() } -> std::convertible_to<double>;  // s; a step of this size resolves the motion coarsely
+  {
+    model.time_scale()
+    } -> std::convertible_to<double>;  // s; a step of this size resolves the motion coarsely
 };
 
 /// A model whose motion is known in closed form.

@@ -53,7 +53,8 @@ class DaeSystem : public FirstOrderSystem {
 
 /// A model's own ODE form: the same functions as OdeSystem on its State, nothing virtual.
 template <class F, class M>
-concept OdeFormOf = requires(const F& form, const typename M::State& state, double t, const double* y, double* out) {
+concept OdeFormOf = requires(const F& form, const typename M::State& state, double t, const double* y,
+                             double* out) {
   { form.size() } -> std::convertible_to<int>;
   { form.scales() } -> std::same_as<std::vector<double>>;
   { form.sparsity() } -> std::same_as<std::optional<SparsePattern>>;
@@ -64,17 +65,17 @@ concept OdeFormOf = requires(const F& form, const typename M::State& state, doub
 };
 
 template <class F, class M>
-concept DaeFormOf =
-    requires(const F& form, const typename M::State& state, double t, const double* y, double* out, double* rate) {
-      { form.size() } -> std::convertible_to<int>;
-      { form.scales() } -> std::same_as<std::vector<double>>;
-      { form.sparsity() } -> std::same_as<std::optional<SparsePattern>>;
-      { form.algebraic() } -> std::same_as<std::vector<int>>;
-      form.pack(state, out, rate);
-      { form.unpack(y) } -> std::same_as<typename M::State>;
-      form.residual(t, y, y, out);
-      form.jacobian(t, t, y, y, out);
-    };
+concept DaeFormOf = requires(const F& form, const typename M::State& state, double t, const double* y,
+                             double* out, double* rate) {
+  { form.size() } -> std::convertible_to<int>;
+  { form.scales() } -> std::same_as<std::vector<double>>;
+  { form.sparsity() } -> std::same_as<std::optional<SparsePattern>>;
+  { form.algebraic() } -> std::same_as<std::vector<int>>;
+  form.pack(state, out, rate);
+  { form.unpack(y) } -> std::same_as<typename M::State>;
+  form.residual(t, y, y, out);
+  form.jacobian(t, t, y, y, out);
+};
 
 template <class M>
 concept HasOde = Model<M> && requires(const M& model) {
@@ -121,7 +122,9 @@ class ErasedOde final : public Erased<OdeSystem, M, F> {
   using Erased<OdeSystem, M, F>::Erased;
   void start(double* y) const override { this->form_.pack(this->model_.initial(), y); }
   void rhs(double t, const double* y, double* rate) const override { this->form_.rhs(t, y, rate); }
-  void jacobian(double t, const double* y, double* values) const override { this->form_.jacobian(t, y, values); }
+  void jacobian(double t, const double* y, double* values) const override {
+    this->form_.jacobian(t, y, values);
+  }
 };
 
 template <Model M, class F>
@@ -147,8 +150,7 @@ std::unique_ptr<OdeSystem> erase_ode(const M& model) {
 }
 
 template <Model M, class F>
-  requires DaeFormOf<F, M>
-std::unique_ptr<DaeSystem> erase_dae(const M& model, F form) {
+requires DaeFormOf<F, M> std::unique_ptr<DaeSystem> erase_dae(const M& model, F form) {
   return std::make_unique<detail::ErasedDae<M, F>>(model, std::move(form));
 }
 

@@ -42,8 +42,8 @@ bool read(const std::string& path, const std::string& key, ReferenceStates& refe
     json.at("states").get_to(reference.states);
     json.at("bounds").get_to(reference.bounds);
     json.at("message").get_to(reference.message);
-    return reference.kind.empty() ||
-           (reference.states.size() == reference.times.size() && reference.bounds.size() == reference.times.size());
+    return reference.kind.empty() || (reference.states.size() == reference.times.size() &&
+                                      reference.bounds.size() == reference.times.size());
   } catch (const std::exception&) {
     return false;
   }

@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-/// Obtains references and keeps the certified ones as small files beside the build, by the hash of the scene's physics
-/// and the times. A file that does not fit, or is damaged, is computed anew.
+/// Obtains references and keeps the certified ones as small files beside the build, by the hash of the
+/// scene's physics and the times. A file that does not fit, or is damaged, is computed anew.
 class ReferenceStore {
  public:
   /// An empty folder name keeps nothing.

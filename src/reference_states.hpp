@@ -24,16 +24,19 @@ struct ReferenceStates {
 
 /// A model whose rates can be evaluated in extended precision.
 template <class M>
-concept HasExtendedOde = HasOde<M> && requires(const M& model, long double t, const long double* y, long double* rate) {
+concept HasExtendedOde = HasOde<M> &&
+    requires(const M& model, long double t, const long double* y, long double* rate) {
   model.extended_rhs(t, y, rate);
 };
 
 namespace detail {
 
-/// At a break the data belong to what comes after; a segment that ends there sees the limit from its own side.
+/// At a break the data belong to what comes after; a segment that ends there sees the limit from its own
+/// side.
 template <class Real>
 Real one_sided(Real t, double segment_end) {
-  return t < Real(segment_end) ? t : Real(std::nextafter(segment_end, -std::numeric_limits<double>::infinity()));
+  return t < Real(segment_end) ? t
+                               : Real(std::nextafter(segment_end, -std::numeric_limits<double>::infinity()));
 }
 
 template <HasOde M, class Real>
@@ -52,8 +55,10 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
   const auto rhs = [&](int segment, Real t, const Real* y, Real* rate) {
     const std::size_t next = static_cast<std::size_t>(segment);
     const Real at = next < breaks.size() ? one_sided(t, breaks[next]) : t;
-    if constexpr (std::is_same_v<Real, double>) form.rhs(at, y, rate);
-    else model.extended_rhs(at, y, rate);
+    if constexpr (std::is_same_v<Real, double>)
+      form.rhs(at, y, rate);
+    else
+      model.extended_rhs(at, y, rate);
   };
   CertifyOptions<Real> options;
   options.max_evaluations = max_evaluations;
@@ -76,18 +81,21 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
       return static_cast<Real>(model.distance(state_of(a), state_of(b))[metric]);
     };
     // The states are rounded to double: a few units in the last place.
-    const std::vector<Real> bounds = error_bounds(solution, distance, Real(8 * std::numeric_limits<double>::epsilon()));
-    for (std::size_t k = 0; k < times.size(); ++k) reference.bounds[k][metric] = static_cast<double>(bounds[k]);
+    const std::vector<Real> bounds =
+        error_bounds(solution, distance, Real(8 * std::numeric_limits<double>::epsilon()));
+    for (std::size_t k = 0; k < times.size(); ++k)
+      reference.bounds[k][metric] = static_cast<double>(bounds[k]);
   }
   return reference;
 }
 
 }  // namespace detail
 
-/// The closed form where the model has one, else the certified solution of its ODE form, in extended precision where
-/// the model's rates allow it. `times` ascend.
+/// The closed form where the model has one, else the certified solution of its ODE form, in extended
+/// precision where the model's rates allow it. `times` ascend.
 template <Model M>
-ReferenceStates reference_states(const M& model, const std::vector<double>& times, long max_evaluations = 50'000'000) {
+ReferenceStates reference_states(const M& model, const std::vector<double>& times,
+                                 long max_evaluations = 50'000'000) {
   if constexpr (HasExact<M>) {
     ReferenceStates reference;
     reference.kind = "analytic";

@@ -19,7 +19,8 @@ StepPlan plan_steps(double t_end, double requested, const std::vector<double>& b
   return {count, h, misses};
 }
 
-std::vector<Stop> plan_stops(const RunSpec& spec, const StepPlan& plan, const std::vector<InvariantInfo>& infos) {
+std::vector<Stop> plan_stops(const RunSpec& spec, const StepPlan& plan,
+                             const std::vector<InvariantInfo>& infos) {
   std::map<long, Stop> stops;
   const auto at = [&](double t) -> Stop& {
     const long index = std::clamp(std::lround(t / plan.h), 1L, plan.count);
@@ -52,10 +53,14 @@ std::string failure_message(Status status, long step_index, double t, double h) 
 
 std::string limit_message(Status status, const RunSpec& spec) {
   switch (status) {
-    case Status::step_limit: return fmt::format("reached --max-steps {}", spec.max_steps);
-    case Status::time_limit: return fmt::format("reached --time-limit {:g} s", spec.time_limit);
-    case Status::interrupted: return "interrupted";
-    default: return "";
+    case Status::step_limit:
+      return fmt::format("reached --max-steps {}", spec.max_steps);
+    case Status::time_limit:
+      return fmt::format("reached --time-limit {:g} s", spec.time_limit);
+    case Status::interrupted:
+      return "interrupted";
+    default:
+      return "";
   }
 }
 
@@ -142,8 +147,10 @@ RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
   result.cost = solver.cost();
   if (result.status == Status::ok && !all_finite(result.state)) result.status = Status::diverged;
   if (result.message.empty()) {
-    if (result.status == Status::diverged) result.message = "the state was no longer finite";
-    else if (result.status != Status::ok) result.message = limit_message(result.status, spec);
+    if (result.status == Status::diverged)
+      result.message = "the state was no longer finite";
+    else if (result.status != Status::ok)
+      result.message = limit_message(result.status, spec);
   }
   return result;
 }

@@ -19,16 +19,16 @@ namespace gnomon {
 
 /// How one run is to be made. Exactly one of step and tol is set; a closed form needs neither.
 struct RunSpec {
-  double t_end = 1.0;                         ///< s
-  std::optional<double> step;                 ///< requested step, s; the used one is t_end / ceil(t_end/step - 1e-9)
-  std::optional<double> tol;                  ///< rtol; atol is this times the scale of each component class
-  int samples = 0;                            ///< equally spaced states to keep, the start not counted; solvers stop there
-  int watch = 256;                            ///< jittered times at which the invariants are looked at
-  bool record = true;                         ///< false: only integrate, to be timed
-  long max_steps = 100'000'000;               ///< steps
-  double time_limit = 600.0;                  ///< s of wall-clock time
-  double newton_tol = 1e-10;                  ///< of implicit fixed-step schemes, relative residual
-  const std::atomic<bool>* stop = nullptr;    ///< becomes true when the user interrupts
+  double t_end = 1.0;            ///< s
+  std::optional<double> step;    ///< requested step, s; the used one is t_end / ceil(t_end/step - 1e-9)
+  std::optional<double> tol;     ///< rtol; atol is this times the scale of each component class
+  int samples = 0;               ///< equally spaced states to keep, the start not counted; solvers stop there
+  int watch = 256;               ///< jittered times at which the invariants are looked at
+  bool record = true;            ///< false: only integrate, to be timed
+  long max_steps = 100'000'000;  ///< steps
+  double time_limit = 600.0;     ///< s of wall-clock time
+  double newton_tol = 1e-10;     ///< of implicit fixed-step schemes, relative residual
+  const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user interrupts
 };
 
 /// Invariants along a run: values are times x components.
@@ -40,9 +40,9 @@ struct Trace {
 struct RunResult {
   Status status = Status::ok;
   std::string message;
-  double t = 0.0;                            ///< time reached, s
-  std::optional<double> step;                ///< the step used, s; none for adaptive solvers and closed forms
-  std::vector<double> state;                 ///< flattened model state at t, the last good one
+  double t = 0.0;              ///< time reached, s
+  std::optional<double> step;  ///< the step used, s; none for adaptive solvers and closed forms
+  std::vector<double> state;   ///< flattened model state at t, the last good one
   Trace invariants;
   std::vector<double> sample_times;          ///< the start first
   std::vector<std::vector<double>> samples;  ///< flattened model states
@@ -65,7 +65,8 @@ struct Stop {
   bool watch;
   bool sample;
 };
-std::vector<Stop> plan_stops(const RunSpec& spec, const StepPlan& plan, const std::vector<InvariantInfo>& infos);
+std::vector<Stop> plan_stops(const RunSpec& spec, const StepPlan& plan,
+                             const std::vector<InvariantInfo>& infos);
 
 bool all_finite(const std::vector<double>& values);
 double wall_seconds();
@@ -100,10 +101,11 @@ class Recorder {
   std::size_t count_ = 0;
 };
 
-/// The inner loop, from step n to step `to`. Stops at the first step that fails. Everything is inlined into it: a call in
-/// the middle of a step costs more than the step.
+/// The inner loop, from step n to step `to`. Stops at the first step that fails. Everything is inlined into
+/// it: a call in the middle of a step costs more than the step.
 template <Model M, FixedStepOn<M> S>
-[[gnu::noinline, gnu::flatten]] Status march(const M& model, typename S::template State<M>& state, long& n, long to, double h) {
+[[gnu::noinline, gnu::flatten]] Status march(const M& model, typename S::template State<M>& state, long& n,
+                                             long to, double h) {
   for (; n < to; ++n) {
     const Status status = S::step(model, state, static_cast<double>(n) * h, h);
     if (status != Status::ok) return status;
@@ -113,8 +115,9 @@ template <Model M, FixedStepOn<M> S>
 
 }  // namespace detail
 
-/// Integrates with equal steps. Whether the state is still finite, the time limit and an interruption are looked at
-/// every few milliseconds; after a failure the last stretch is repeated step by step up to the last good state.
+/// Integrates with equal steps. Whether the state is still finite, the time limit and an interruption are
+/// looked at every few milliseconds; after a failure the last stretch is repeated step by step up to the last
+/// good state.
 template <Model M, FixedStepOn<M> S>
 RunResult run_fixed(const M& model, const RunSpec& spec) {
   RunResult result;
@@ -162,11 +165,13 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
       if (stops[next].watch) recorder.watch(t, S::view(model, state));
       if (stops[next].sample) recorder.sample(t, S::view(model, state));
     }
-    if (n < last && spec.stop && spec.stop->load(std::memory_order_relaxed)) result.status = Status::interrupted;
+    if (n < last && spec.stop && spec.stop->load(std::memory_order_relaxed))
+      result.status = Status::interrupted;
     if (n < last && wall_seconds() > deadline) result.status = Status::time_limit;
   }
   if (result.status == Status::ok && n < plan.count) result.status = Status::step_limit;
-  if (result.status != Status::ok && result.message.empty()) result.message = limit_message(result.status, spec);
+  if (result.status != Status::ok && result.message.empty())
+    result.message = limit_message(result.status, spec);
   result.t = n == plan.count ? spec.t_end : static_cast<double>(n) * plan.h;
   result.state = model.flatten(S::view(model, state));
   result.cost = S::cost(model, state, n);
@@ -203,8 +208,8 @@ RunResult run_closed_form(const M& model, const RunSpec& spec) {
 class AdaptiveSolver {
  public:
   virtual ~AdaptiveSolver() = default;
-  /// Goes on to t_stop exactly, or by one internal step that does not pass it. After a failure `message` says why and
-  /// t and y are those of the last good step.
+  /// Goes on to t_stop exactly, or by one internal step that does not pass it. After a failure `message` says
+  /// why and t and y are those of the last good step.
   virtual Status advance(double t_stop, bool one_step) = 0;
   /// Forgets the past, for data that jump at the present time.
   virtual void restart() = 0;
@@ -214,7 +219,8 @@ class AdaptiveSolver {
   virtual std::string message() const = 0;
 };
 
-/// Integrates with a solver that chooses its own steps; invariants are taken at its own steps, never interpolated.
+/// Integrates with a solver that chooses its own steps; invariants are taken at its own steps, never
+/// interpolated.
 RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
                        const std::vector<InvariantInfo>& infos, const RunSpec& spec);
 

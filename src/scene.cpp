@@ -22,7 +22,8 @@ toml::table parse_file(const std::string& path) {
   try {
     return toml::parse(text.str(), path);
   } catch (const toml::parse_error& error) {
-    throw UsageError(fmt::format("{}:{}: not valid TOML: {}", path, error.source().begin.line, error.description()));
+    throw UsageError(
+        fmt::format("{}:{}: not valid TOML: {}", path, error.source().begin.line, error.description()));
   }
 }
 
@@ -37,8 +38,8 @@ void apply_override(toml::table& root, const std::string& option, SceneSource& s
   try {
     parsed = toml::parse("x = " + value);
   } catch (const toml::parse_error&) {
-    throw UsageError(
-        fmt::format("{}: found '{}', expected a TOML value (a number, \"text\", [list] or true)", label, value));
+    throw UsageError(fmt::format("{}: found '{}', expected a TOML value (a number, \"text\", [list] or true)",
+                                 label, value));
   }
   toml::table* table = &root;
   std::stringstream stream(path);
@@ -49,7 +50,8 @@ void apply_override(toml::table& root, const std::string& option, SceneSource& s
   for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
     toml::node* node = table->get(keys[k]);
     if (!node) node = &table->insert(keys[k], toml::table{}).first->second;
-    if (!node->is_table()) throw UsageError(fmt::format("{}: '{}' is not a table of the scene", label, keys[k]));
+    if (!node->is_table())
+      throw UsageError(fmt::format("{}: '{}' is not a table of the scene", label, keys[k]));
     table = node->as_table();
   }
   const toml::node& node = *parsed.get("x");
@@ -77,7 +79,8 @@ std::vector<ShippedScene> shipped_scenes(const Catalogue& catalogue) {
   for (const std::string& folder : catalogue.scene_folders) {
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-      if (entry.path().extension() == ".toml") scenes.push_back({entry.path().stem().string(), entry.path().string()});
+      if (entry.path().extension() == ".toml")
+        scenes.push_back({entry.path().stem().string(), entry.path().string()});
   }
   std::sort(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return scenes;
@@ -88,14 +91,15 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
   std::string path = name_or_path;
   if (!path.ends_with(".toml")) {
     const std::vector<ShippedScene> shipped = shipped_scenes(catalogue);
-    const auto found =
-        std::find_if(shipped.begin(), shipped.end(), [&](const auto& scene) { return scene.name == name_or_path; });
+    const auto found = std::find_if(shipped.begin(), shipped.end(),
+                                    [&](const auto& scene) { return scene.name == name_or_path; });
     if (found == shipped.end()) {
       std::vector<std::string> names;
       for (const ShippedScene& scene : shipped) names.push_back(scene.name);
       const std::string near = nearest(name_or_path, names);
-      throw UsageError(fmt::format("scene '{}': no shipped scene of that name, expected {} or a path that ends in .toml",
-                                   name_or_path, near.empty() ? fmt::format("{}", fmt::join(names, ", ")) : near));
+      throw UsageError(
+          fmt::format("scene '{}': no shipped scene of that name, expected {} or a path that ends in .toml",
+                      name_or_path, near.empty() ? fmt::format("{}", fmt::join(names, ", ")) : near));
     }
     path = found->path;
     source.file = std::filesystem::path(path).filename().string();
@@ -107,8 +111,10 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
   Section root(table, "", source);
   Scene scene;
   scene.name = root.text("name", "a name in quotes");
-  if (root.has("description")) scene.description = root.text("description", "a text in quotes");
-  else root.numbers_or("description", {}, "");
+  if (root.has("description"))
+    scene.description = root.text("description", "a text in quotes");
+  else
+    root.numbers_or("description", {}, "");
   std::vector<std::string> models;
   for (const ModelEntry& entry : catalogue.models) models.emplace_back(entry.name);
   scene.model_name = root.one_of("model", models);

@@ -30,7 +30,8 @@ struct SceneChanges {
 };
 
 /// A shipped scene by its name, or a file that ends in .toml. Throws UsageError.
-Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, const SceneChanges& changes = {});
+Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path,
+                 const SceneChanges& changes = {});
 
 struct ShippedScene {
   std::string name;

@@ -50,7 +50,8 @@ std::string Section::where(std::string_view key) const {
     if (path == overridden || path.starts_with(overridden + ".")) return fmt::format("{}: {}", option, path);
   const toml::node* node = table_->get(key);
   toml::source_index line = node ? node->source().begin.line : table_->source().begin.line;
-  return line > 0 ? fmt::format("{}:{}: {}", source_->file, line, path) : fmt::format("{}: {}", source_->file, path);
+  return line > 0 ? fmt::format("{}:{}: {}", source_->file, line, path)
+                  : fmt::format("{}: {}", source_->file, path);
 }
 
 void Section::fail(std::string_view key, std::string_view found, std::string_view expected) const {
@@ -82,9 +83,12 @@ const toml::node& Section::require(std::string_view key, std::string_view expect
 
 double Section::finite(const toml::node& node, std::string_view key, std::string_view expected) const {
   double value = 0.0;
-  if (const auto* real = node.as_floating_point()) value = real->get();
-  else if (const auto* whole = node.as_integer()) value = static_cast<double>(whole->get());
-  else fail(key, shown(key), expected);
+  if (const auto* real = node.as_floating_point())
+    value = real->get();
+  else if (const auto* whole = node.as_integer())
+    value = static_cast<double>(whole->get());
+  else
+    fail(key, shown(key), expected);
   if (!std::isfinite(value)) fail(key, shown(key), expected);
   return value;
 }
@@ -142,7 +146,8 @@ std::string Section::exactly_one(std::string_view first, std::string_view second
   known_.emplace_back(second);
   if (has(first) && has(second))
     fail(second, fmt::format("both {} and {}", first, second), fmt::format("only one of them ({})", meaning));
-  if (!has(first) && !has(second)) fail(first, "nothing", fmt::format("{} or {} ({})", first, second, meaning));
+  if (!has(first) && !has(second))
+    fail(first, "nothing", fmt::format("{} or {} ({})", first, second, meaning));
   return std::string(has(first) ? first : second);
 }
 

@@ -19,8 +19,9 @@ struct SceneSource {
   std::map<std::string, std::string> overrides;  ///< key path -> the --set option that wrote it
 };
 
-/// One table of a scene file, read strictly: every key that is asked for is checked for type and range, and `finish`
-/// refuses the keys that nobody asked for. All failures are UsageErrors "file:line: key: found .., expected ..".
+/// One table of a scene file, read strictly: every key that is asked for is checked for type and range, and
+/// `finish` refuses the keys that nobody asked for. All failures are UsageErrors "file:line: key: found ..,
+/// expected ..".
 class Section {
  public:
   Section(const toml::table& table, std::string path, const SceneSource& source);
@@ -32,7 +33,8 @@ class Section {
   /// Exactly `count` finite numbers.
   std::vector<double> numbers(std::string_view key, std::size_t count, std::string_view expected);
   /// Makes a key that is absent known, and gives its default.
-  std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback, std::string_view expected);
+  std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback,
+                                 std::string_view expected);
   std::string text(std::string_view key, std::string_view expected);
   std::string one_of(std::string_view key, const std::vector<std::string>& choices);
   /// A table inside this one; none when the key is absent.

@@ -18,9 +18,12 @@ enum class Stepping {
 
 constexpr std::string_view to_string(Stepping stepping) {
   switch (stepping) {
-    case Stepping::fixed: return "fixed step";
-    case Stepping::adaptive: return "adaptive";
-    case Stepping::closed_form: return "closed form";
+    case Stepping::fixed:
+      return "fixed step";
+    case Stepping::adaptive:
+      return "adaptive";
+    case Stepping::closed_form:
+      return "closed form";
   }
   return "";
 }
@@ -31,8 +34,8 @@ struct DeclaredOrder {
   double order;
 };
 
-/// What a scheme declares about itself. The command line, the tables and the tests are driven by it, and a test fails
-/// where a declared property does not hold *and* where one holds that is not declared.
+/// What a scheme declares about itself. The command line, the tables and the tests are driven by it, and a
+/// test fails where a declared property does not hold *and* where one holds that is not declared.
 struct SchemeInfo {
   std::string_view name;
   std::string_view family;
@@ -40,12 +43,12 @@ struct SchemeInfo {
   std::string_view citation;  ///< with equation numbers
   std::string_view form;      ///< the form of a model that it needs: "rotation", "ode", "dae", "closed form"
   Stepping stepping = Stepping::fixed;
-  int stages = 0;                             ///< evaluations of the rates a step; 0 where it varies
-  std::array<DeclaredOrder, 4> orders{};      ///< empty entries have an empty load class
-  bool reversible = false;                    ///< a step back undoes a step, to roundoff
-  bool conserves_energy = false;              ///< of a body or beam without load, to roundoff
-  bool conserves_momentum = false;            ///< likewise
-  bool control = false;                       ///< a negative control: only run when asked for by name
+  int stages = 0;                         ///< evaluations of the rates a step; 0 where it varies
+  std::array<DeclaredOrder, 4> orders{};  ///< empty entries have an empty load class
+  bool reversible = false;                ///< a step back undoes a step, to roundoff
+  bool conserves_energy = false;          ///< of a body or beam without load, to roundoff
+  bool conserves_momentum = false;        ///< likewise
+  bool control = false;                   ///< a negative control: only run when asked for by name
 
   constexpr std::optional<double> order_for(std::string_view load_class) const {
     for (const DeclaredOrder& declared : orders)
@@ -59,17 +62,18 @@ concept Scheme = requires {
   { S::info } -> std::convertible_to<SchemeInfo>;
 };
 
-/// A scheme of equal steps on a model. Its `State` is everything it needs to go on; a copy of it is a checkpoint.
-/// `step` returns Status::ok, or why it could not (the state is then worthless); it allocates nothing.
+/// A scheme of equal steps on a model. Its `State` is everything it needs to go on; a copy of it is a
+/// checkpoint. `step` returns Status::ok, or why it could not (the state is then worthless); it allocates
+/// nothing.
 template <class S, class M>
 concept FixedStepOn = Scheme<S> && Model<M> &&
-                      requires(const M& model, const typename M::State& start, double t, double h,
-                               typename S::template State<M>& state, const typename S::template State<M>& view) {
-                        { S::start(model, start) } -> std::same_as<typename S::template State<M>>;
-                        { S::step(model, state, t, h) } -> std::same_as<Status>;
-                        { S::view(model, view) } -> std::same_as<typename M::State>;
-                        { S::cost(model, view, 1L) } -> std::same_as<Cost>;  // after that many steps
-                      };
+    requires(const M& model, const typename M::State& start, double t, double h,
+             typename S::template State<M>& state, const typename S::template State<M>& view) {
+  { S::start(model, start) } -> std::same_as<typename S::template State<M>>;
+  { S::step(model, state, t, h) } -> std::same_as<Status>;
+  { S::view(model, view) } -> std::same_as<typename M::State>;
+  { S::cost(model, view, 1L) } -> std::same_as<Cost>;  // after that many steps
+};
 
 /// A closed form: the state at any time, at once.
 template <class S, class M>

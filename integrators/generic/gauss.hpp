@@ -122,7 +122,7 @@ class GaussStepper {
         // progress.
         const Real rate = change / previous;
         if (rate < Real(0.9) && change * rate / (Real(1) - rate) <= eps / 64) return Result::done;
-        if (rate >= Real(0.5) && change <= 64 * eps) return Result::done;
+        if (rate >= Real(1) && change <= 64 * eps) return Result::done;
       }
       previous = change;
     }

@@ -8,9 +8,11 @@ struct ExactFreeTop {
   static constexpr SchemeInfo info{
       .name = "exact-free-top",
       .family = "rotation",
-      .summary = "closed form of the free body: trigonometric, elliptic or hyperbolic functions as the case is",
-      .citation = "C.G.J. Jacobi 1850; E. Celledoni, F. Fasso, N. Safstrom, A. Zanna, SIAM J. Sci. Comput. 30 (2008) "
-                  "2084-2112",
+      .summary =
+          "closed form of the free body: trigonometric, elliptic or hyperbolic functions as the case is",
+      .citation =
+          "C.G.J. Jacobi 1850; E. Celledoni, F. Fasso, N. Safstrom, A. Zanna, SIAM J. Sci. Comput. 30 (2008) "
+          "2084-2112",
       .form = "closed form",
       .stepping = Stepping::closed_form,
       .conserves_energy = true,

@@ -11,17 +11,19 @@ struct Variant {
   bool commutators;           ///< the commutator terms of the Runge-Kutta-Munthe-Kaas method of order 4
 };
 
-/// The state of the scheme: the triad (i, j, k) as the columns of A, and the spatial angular momentum H = A I A^T w.
+/// The state of the scheme: the triad (i, j, k) as the columns of A, and the spatial angular momentum H = A I
+/// A^T w.
 struct TriadState {
   Matrix3 attitude;
   Vector3 momentum;
 };
 
-/// Steps 1-7 of A. Munjiza, The Combined Finite-Discrete Element Method (Wiley 2004), section 5.6, eqs. (5.79)-(5.93),
-/// and its repairs. The book's stage s has the triad A_s = rot(p_s, A), A always being the triad of time t, and the
-/// angular velocity w_s = A_s I^-1 A_s^T H_s, H_s being H plus the impulse of the stage. Here the spatial vectors of a
-/// step are written in the body triad of time t, where the factors A drop out: with y = A^T H and p_s, w_s and the
-/// impulse turned likewise, A_s = A R(p_s) and w_s = R(p_s) I^-1 R(p_s)^T y_s.
+/// Steps 1-7 of A. Munjiza, The Combined Finite-Discrete Element Method (Wiley 2004), section 5.6, eqs.
+/// (5.79)-(5.93), and its repairs. The book's stage s has the triad A_s = rot(p_s, A), A always being the
+/// triad of time t, and the angular velocity w_s = A_s I^-1 A_s^T H_s, H_s being H plus the impulse of the
+/// stage. Here the spatial vectors of a step are written in the body triad of time t, where the factors A
+/// drop out: with y = A^T H and p_s, w_s and the impulse turned likewise, A_s = A R(p_s) and w_s = R(p_s)
+/// I^-1 R(p_s)^T y_s.
 template <Variant variant>
 struct TriadStep {
   template <RotationForm M>
@@ -32,7 +34,8 @@ struct TriadStep {
     return {state.attitude, state.attitude * state.angular_momentum};
   }
 
-  /// The momentum in the body frame is taken through the attitude, so that its error shows that of the attitude.
+  /// The momentum in the body frame is taken through the attitude, so that its error shows that of the
+  /// attitude.
   template <RotationForm M>
   static typename M::State view(const M&, const TriadState& state) {
     return {state.attitude, state.attitude.transpose() * state.momentum};
@@ -146,8 +149,9 @@ struct Rkmk4 : TriadStep<Variant{0.5, true, true}> {
       .name = "rkmk4",
       .family = "rotation",
       .summary = "Runge-Kutta-Munthe-Kaas method of order 4: stage moments and the two commutator terms",
-      .citation = "H. Munthe-Kaas, Appl. Numer. Math. 29 (1999) 115-127, with two commutators; on the steps of "
-                  "Munjiza (2004), section 5.6",
+      .citation =
+          "H. Munthe-Kaas, Appl. Numer. Math. 29 (1999) 115-127, with two commutators; on the steps of "
+          "Munjiza (2004), section 5.6",
       .form = "rotation",
       .stages = 4,
       .orders = {{{"none", 4}, {"gravity", 4}, {"space_moment", 4}, {"body_moment", 4}}},

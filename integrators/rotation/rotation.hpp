@@ -12,11 +12,11 @@ using Matrix3 = Eigen::Matrix3d;
 
 namespace rotation {
 
-/// What the rotation schemes need of a model: its attitude A (body -> space), the principal inertia in the body triad
-/// [kg m^2] and, where it has a load, the spatial moment [N m] at a time and an attitude.
+/// What the rotation schemes need of a model: its attitude A (body -> space), the principal inertia in the
+/// body triad [kg m^2] and, where it has a load, the spatial moment [N m] at a time and an attitude.
 template <class M>
-concept RotationForm = Model<M> && requires(const M& model, const typename M::State& state, double t,
-                                            const Matrix3& attitude) {
+concept RotationForm = Model<M> &&
+    requires(const M& model, const typename M::State& state, double t, const Matrix3& attitude) {
   { model.inertia() } -> std::convertible_to<Vector3>;
   { M::has_moment } -> std::convertible_to<bool>;
   { model.moment(t, attitude) } -> std::convertible_to<Vector3>;
@@ -24,8 +24,9 @@ concept RotationForm = Model<M> && requires(const M& model, const typename M::St
   { state.angular_momentum } -> std::convertible_to<Vector3>;  // body components, kg m^2/s
 };
 
-/// sin(x)/x and (1 - cos x)/x^2 as functions of x^2. Up to x = 1 rad their power series, cut where the first term left
-/// out is below 1e-17 of the sum, so that they are exact to rounding and smooth through 0; above, by the half angle.
+/// sin(x)/x and (1 - cos x)/x^2 as functions of x^2. Up to x = 1 rad their power series, cut where the first
+/// term left out is below 1e-17 of the sum, so that they are exact to rounding and smooth through 0; above,
+/// by the half angle.
 struct Sinc {
   double sine;     ///< sin(x)/x
   double versine;  ///< (1 - cos x)/x^2
@@ -37,8 +38,9 @@ inline Sinc sinc(double square) {
     return {std::sin(angle) / angle, 2.0 * half * half / square};
   }
   // Estrin's scheme: the powers side by side, because a step waits for the result.
-  const auto sum = [](const double (&c)[9], double s, double s2, double s4) {
-    return ((c[0] + c[1] * s) + (c[2] + c[3] * s) * s2) + (((c[4] + c[5] * s) + (c[6] + c[7] * s) * s2) + c[8] * s4) * s4;
+  const auto sum = [](const double(&c)[9], double s, double s2, double s4) {
+    return ((c[0] + c[1] * s) + (c[2] + c[3] * s) * s2) +
+           (((c[4] + c[5] * s) + (c[6] + c[7] * s) * s2) + c[8] * s4) * s4;
   };
   constexpr double sine[9] = {1.0,
                               -1.0 / 6,
@@ -62,8 +64,8 @@ inline Sinc sinc(double square) {
   return {sum(sine, square, square2, square4), sum(versine, square, square2, square4)};
 }
 
-/// rot(p, .) of Munjiza (5.68), the rotation by the rotation vector p [rad], written without the division by |p|:
-/// rot(p, a) = a + (sin|p|/|p|) p x a + ((1 - cos|p|)/|p|^2) p x (p x a).
+/// rot(p, .) of Munjiza (5.68), the rotation by the rotation vector p [rad], written without the division by
+/// |p|: rot(p, a) = a + (sin|p|/|p|) p x a + ((1 - cos|p|)/|p|^2) p x (p x a).
 class Rotation {
  public:
   explicit Rotation(const Vector3& p) : p_(p), factor_(sinc(p.squaredNorm())) {}

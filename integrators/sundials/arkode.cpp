@@ -22,7 +22,8 @@ class Arkode final : public Session {
     } else {
       check(ARKStepSetTableName(memory_, table, "ARKODE_ERK_NONE"), "ARKStepSetTableName");
       linear_ = make_linear(system, y_.get(), context_);
-      check(arkode_set_linear_solver(memory_, linear_.solver.get(), linear_.matrix.get()), "ARKodeSetLinearSolver");
+      check(arkode_set_linear_solver(memory_, linear_.solver.get(), linear_.matrix.get()),
+            "ARKodeSetLinearSolver");
       check(arkode_set_jacobian(memory_, jacobian), "ARKodeSetJacFn");
     }
   }
@@ -40,8 +41,10 @@ class Arkode final : public Session {
     past_ = cost();
     enter_segment();
     rhs_ = 0;
-    if (erk_) check(ERKStepReInit(memory_, rhs, t_, y_.get()), "ERKStepReInit");
-    else check(ARKStepReInit(memory_, nullptr, rhs, t_, y_.get()), "ARKStepReInit");
+    if (erk_)
+      check(ERKStepReInit(memory_, rhs, t_, y_.get()), "ERKStepReInit");
+    else
+      check(ARKStepReInit(memory_, nullptr, rhs, t_, y_.get()), "ARKStepReInit");
   }
   Cost cost() const override {
     Cost cost = past_;
@@ -73,10 +76,12 @@ class Arkode final : public Session {
       require_finite(out, self->size_);
     });
   }
-  static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
+  static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
+                      N_Vector) {
     auto* self = static_cast<Arkode*>(user);
-    return self->guarded(
-        [&] { self->system_.jacobian(self->one_sided(t), N_VGetArrayPointer(y), matrix_values(J, self->pattern_)); });
+    return self->guarded([&] {
+      self->system_.jacobian(self->one_sided(t), N_VGetArrayPointer(y), matrix_values(J, self->pattern_));
+    });
   }
 
   const OdeSystem& system_;

@@ -1,13 +1,22 @@
 #include "integrators/catalogue.hpp"
 #include "integrators/sundials/schemes.hpp"
+#include "integrators/sundials/session.hpp"
 #include "models/catalogue.hpp"
+
+#include <SuiteSparse_config.h>
+#include <fmt/format.h>
 
 namespace gnomon {
 
 void add_sundials_schemes(Catalogue& catalogue) {
   using namespace sundials;
-  using Schemes = TypeList<CvodeAdams, CvodeBdf, ArkodeErk4, ArkodeErk5, ArkodeErk8, ArkodeDirk, IdaBdf, IdaBdfIndex2>;
+  using Schemes =
+      TypeList<CvodeAdams, CvodeBdf, ArkodeErk4, ArkodeErk5, ArkodeErk8, ArkodeDirk, IdaBdf, IdaBdfIndex2>;
   add_schemes<Models>(catalogue, Schemes{});
+  const std::string suitesparse =
+      fmt::format("{}.{}.{}", SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION);
+  catalogue.libraries.push_back({"sundials", SUNDIALS_VERSION, optimised(), build_record()});
+  catalogue.libraries.push_back({"suitesparse", suitesparse, std::nullopt, ""});
 }
 
 }  // namespace gnomon

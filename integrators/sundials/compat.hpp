@@ -20,7 +20,8 @@ struct Messages {
 
 #if SUNDIALS_VERSION_MAJOR >= 7
 
-inline void keep_message(int, const char*, const char*, const char* text, SUNErrCode, void* data, SUNContext) {
+inline void keep_message(int, const char*, const char*, const char* text, SUNErrCode, void* data,
+                         SUNContext) {
   static_cast<Messages*>(data)->last = text ? text : "";
 }
 inline int create_context(SUNContext* context, Messages* messages) {
@@ -49,10 +50,14 @@ inline int create_context(SUNContext* context, Messages*) { return SUNContext_Cr
 inline void keep_cvode_messages(void* memory, Messages* messages) {
   CVodeSetErrHandlerFn(memory, keep_message, messages);
 }
-inline void keep_ida_messages(void* memory, Messages* messages) { IDASetErrHandlerFn(memory, keep_message, messages); }
+inline void keep_ida_messages(void* memory, Messages* messages) {
+  IDASetErrHandlerFn(memory, keep_message, messages);
+}
 inline void keep_arkode_messages(bool erk, void* memory, Messages* messages) {
-  if (erk) ERKStepSetErrHandlerFn(memory, keep_message, messages);
-  else ARKStepSetErrHandlerFn(memory, keep_message, messages);
+  if (erk)
+    ERKStepSetErrHandlerFn(memory, keep_message, messages);
+  else
+    ARKStepSetErrHandlerFn(memory, keep_message, messages);
 }
 
 #define GNOMON_ARKODE(NAME) return erk ? ERKStep##NAME : ARKStep##NAME

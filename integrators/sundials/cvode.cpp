@@ -23,7 +23,8 @@ class Cvode final : public Session {
       check(CVodeSetNonlinearSolver(memory_, fixed_point_.get()), "CVodeSetNonlinearSolver");
     } else {
       linear_ = make_linear(system, y_.get(), context_);
-      check(CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()), "CVodeSetLinearSolver");
+      check(CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()),
+            "CVodeSetLinearSolver");
       check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
     }
   }
@@ -72,10 +73,12 @@ class Cvode final : public Session {
       require_finite(out, self->size_);
     });
   }
-  static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector, N_Vector) {
+  static int jacobian(sunrealtype t, N_Vector y, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
+                      N_Vector) {
     auto* self = static_cast<Cvode*>(user);
-    return self->guarded(
-        [&] { self->system_.jacobian(self->one_sided(t), N_VGetArrayPointer(y), matrix_values(J, self->pattern_)); });
+    return self->guarded([&] {
+      self->system_.jacobian(self->one_sided(t), N_VGetArrayPointer(y), matrix_values(J, self->pattern_));
+    });
   }
 
   const OdeSystem& system_;

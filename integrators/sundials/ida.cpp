@@ -6,7 +6,8 @@ namespace {
 
 class Ida final : public Session {
  public:
-  Ida(const DaeSystem& system, const RunSpec& spec) : Session(system, spec), system_(system), rate_(make_vector()) {
+  Ida(const DaeSystem& system, const RunSpec& spec)
+      : Session(system, spec), system_(system), rate_(make_vector()) {
     system.start(N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(rate_.get()));
     memory_ = IDACreate(context_);
     if (!memory_) throw std::runtime_error("IDACreate failed");
@@ -68,8 +69,8 @@ class Ida final : public Session {
       require_finite(out, self->size_);
     });
   }
-  static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector rate, N_Vector, SUNMatrix J, void* user,
-                      N_Vector, N_Vector, N_Vector) {
+  static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector rate, N_Vector, SUNMatrix J,
+                      void* user, N_Vector, N_Vector, N_Vector) {
     auto* self = static_cast<Ida*>(user);
     return self->guarded([&] {
       self->system_.jacobian(self->one_sided(t), cj, N_VGetArrayPointer(y), N_VGetArrayPointer(rate),

@@ -24,7 +24,8 @@ struct OnOde {
 inline constexpr std::string_view cvode_citation =
     "A.C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363-396; SUNDIALS CVODE";
 inline constexpr std::string_view arkode_citation =
-    "D.R. Reynolds, D.J. Gardner, C.S. Woodward, R. Chinomona, ACM Trans. Math. Softw. 49 (2023) 19; SUNDIALS ARKODE";
+    "D.R. Reynolds, D.J. Gardner, C.S. Woodward, R. Chinomona, ACM Trans. Math. Softw. 49 (2023) 19; "
+    "SUNDIALS ARKODE";
 
 struct CvodeAdams : OnOde {
   static constexpr SchemeInfo info{
@@ -100,7 +101,9 @@ struct ArkodeDirk : OnOde {
   static constexpr SchemeInfo info{
       .name = "arkode-dirk",
       .family = "sundials",
-      .summary = "ARKODE ARKStep, ARKODE_KVAERNO_7_4_5, diagonally implicit, order 5, Newton with the analytic Jacobian",
+      .summary =
+          "ARKODE ARKStep, ARKODE_KVAERNO_7_4_5, diagonally implicit, order 5, Newton with the analytic "
+          "Jacobian",
       .citation = arkode_citation,
       .form = "ode",
       .stepping = Stepping::adaptive,

@@ -26,7 +26,8 @@ Linear make_linear(const FirstOrderSystem& system, N_Vector like, SUNContext con
   Linear linear;
   const sunindextype n = system.size();
   if (const auto pattern = system.sparsity()) {
-    linear.matrix.reset(SUNSparseMatrix(n, n, static_cast<sunindextype>(pattern->row.size()), CSC_MAT, context));
+    linear.matrix.reset(
+        SUNSparseMatrix(n, n, static_cast<sunindextype>(pattern->row.size()), CSC_MAT, context));
     linear.solver.reset(SUNLinSol_KLU(like, linear.matrix.get(), context));
   } else {
     linear.matrix.reset(SUNDenseMatrix(n, n, context));
@@ -38,7 +39,8 @@ Linear make_linear(const FirstOrderSystem& system, N_Vector like, SUNContext con
 
 double* matrix_values(SUNMatrix matrix, const std::optional<SparsePattern>& pattern) {
   if (!pattern) return SUNDenseMatrix_Data(matrix);
-  std::copy(pattern->column_start.begin(), pattern->column_start.end(), SUNSparseMatrix_IndexPointers(matrix));
+  std::copy(pattern->column_start.begin(), pattern->column_start.end(),
+            SUNSparseMatrix_IndexPointers(matrix));
   std::copy(pattern->row.begin(), pattern->row.end(), SUNSparseMatrix_IndexValues(matrix));
   return SUNSparseMatrix_Data(matrix);
 }

@@ -51,10 +51,12 @@ struct Linear {
 };
 Linear make_linear(const FirstOrderSystem& system, N_Vector like, SUNContext context);
 
-/// Calls `fill(values)` on the entries of a dense matrix (all, by columns) or of a sparse one (in the pattern's order).
+/// Calls `fill(values)` on the entries of a dense matrix (all, by columns) or of a sparse one (in the
+/// pattern's order).
 double* matrix_values(SUNMatrix matrix, const std::optional<SparsePattern>& pattern);
 
-/// What the solvers share: context, state, tolerances, counters, and exceptions carried across the C boundary.
+/// What the solvers share: context, state, tolerances, counters, and exceptions carried across the C
+/// boundary.
 class Session : public AdaptiveSolver {
  public:
   double t() const final { return t_; }
@@ -67,7 +69,8 @@ class Session : public AdaptiveSolver {
   Vector make_vector(const std::vector<double>& values) const;
   Vector make_vector() const;
 
-  /// Runs a callback's body and turns what it throws into SUNDIALS' return codes: 0, +1 recoverable, -1 fatal.
+  /// Runs a callback's body and turns what it throws into SUNDIALS' return codes: 0, +1 recoverable, -1
+  /// fatal.
   template <class Body>
   int guarded(Body&& body) noexcept {
     try {
@@ -110,8 +113,8 @@ class Session : public AdaptiveSolver {
   std::string message_;
 };
 
-/// True if the library that is linked was compiled with optimisation, by the record that its build left beside it;
-/// packaged libraries leave none and are compiled without.
+/// True if the library that is linked was compiled with optimisation, by the record that its build left
+/// beside it; packaged libraries leave none and are compiled without.
 bool optimised();
 /// Compiler flags of that record, or empty.
 std::string build_record();

@@ -5,8 +5,8 @@ namespace gnomon::rigid_body {
 
 /// DAE forms in 8 unknowns y = (q, m, mu): the norm of the quaternion as a constraint with a multiplier,
 ///   q' = 1/2 q o (0, I^-1 m) + s q,   m' = m x I^-1 m + tau(q),   0 = 1/2 (q.q - 1),
-/// with s = mu' (stabilised: index 1 in the multiplier's primitive, mu(0) = 0) or s = mu (index 2). mu = 0 on the exact
-/// motion of both, so the start is consistent as it stands.
+/// with s = mu' (stabilised: index 1 in the multiplier's primitive, mu(0) = 0) or s = mu (index 2). mu = 0 on
+/// the exact motion of both, so the start is consistent as it stands.
 template <class Load, bool stabilised>
 struct DaeForm {
   Vector<double> inertia;  ///< kg m^2

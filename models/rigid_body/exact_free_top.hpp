@@ -72,8 +72,8 @@ TwoReals<Real> operator-(const TwoReals<Real>& a, const TwoReals<Real>& b) {
 /// data. A relative change eps of the data, or the roundoff of an integrator, changes k1^2 by about eps, the
 /// time of each flip by eps / (k1^2 lambda) and, after n flips, the phase u by n eps / k1^2. That is a
 /// property of the problem. Here the data are taken as exact and k1^2 is formed with twice the working
-/// precision, so that the values returned do not suffer from it: error_bound() grows with the angle turned
-/// only, until k1 comes down to eps.
+/// precision, so that the values returned do not suffer from it: error_bound() grows with the angle turned,
+/// plus a term in n (eps / k1)^2.
 template <class Real>
 class ExactFreeTop {
  public:
@@ -180,9 +180,12 @@ class ExactFreeTop {
     using detail::TwoReals;
     const int inertia_exponent = std::ilogb(inertia[high]);
     const auto moment = [&](int i) { return std::ldexp(inertia[i], -inertia_exponent); };
-    momentum_exponent_ = std::ilogb(std::max(std::abs(m[low]), std::abs(m[high])));
+    // A term vanishes if its two moments are equal, and must not set the scale then.
+    momentum_exponent_ = std::ilogb(std::max(inertia[b_] > inertia[low] ? std::abs(m[low]) : Real(0),
+                                             inertia[b_] < inertia[high] ? std::abs(m[high]) : Real(0)));
     bool exact = true;
     const auto term = [&](Real upper, Real lower, Real m_i, Real inertia_j) {
+      if (upper == lower) return TwoReals<Real>{Real(0), Real(0)};
       const Real scaled = std::ldexp(m_i, -momentum_exponent_);
       const TwoReals<Real> square = exact_product(scaled, scaled);
       const TwoReals<Real> difference = exact_sum(upper, -lower);
@@ -197,8 +200,8 @@ class ExactFreeTop {
     c_ = difference >= 0 ? low : high;
     separation_ = std::abs(difference) / (moment(c_) * std::abs(moment(a_) - moment(b_)));
     const Real eps = std::numeric_limits<Real>::epsilon();
-    separation_error_ = exact ? Real(0) : 8 * eps * eps * (high_term.high + low_term.high);
-    if (difference != 0) separation_error_ /= std::abs(difference);
+    const Real size = high_term.high + low_term.high;
+    separation_error_ = exact ? Real(0) : 8 * eps * eps * (difference != 0 ? size / std::abs(difference) : 2);
   }
 
   void prepare(const Vector3& inertia) {

@@ -4,13 +4,15 @@
 
 namespace gnomon::rigid_body {
 
-/// Loads are types, so that a free body evaluates no moment. Each gives the moment about the reference point as a
-/// spatial vector from the attitude (rotation schemes) and as a body vector from the quaternion (ODE and DAE forms),
-/// both in N m. `attitude` is body -> space; the quaternion is (w, x, y, z), its norm 1 on the exact motion.
+/// Loads are types, so that a free body evaluates no moment. Each gives the moment about the reference point
+/// as a spatial vector from the attitude (rotation schemes) and as a body vector from the quaternion (ODE and
+/// DAE forms), both in N m. `attitude` is body -> space; the quaternion is (w, x, y, z), its norm 1 on the
+/// exact motion.
 template <class Real>
 using Vector = Eigen::Matrix<Real, 3, 1>;
 
-/// R(q)^T e3 for a quaternion of any norm (then times |q|^2), and its derivative by q, one column a component.
+/// R(q)^T e3 for a quaternion of any norm (then times |q|^2), and its derivative by q, one column a
+/// component.
 template <class Real>
 Vector<Real> third_row(const Real* q) {
   return {2 * (q[1] * q[3] - q[0] * q[2]), 2 * (q[2] * q[3] + q[0] * q[1]),
@@ -71,7 +73,9 @@ struct SpaceMoment {
   Vector<Real> body_moment(const Real* q) const {
     return to_body<Real>(q, moment.cast<Real>());
   }
-  Eigen::Matrix<double, 3, 4> body_moment_derivative(const double* q) const { return to_body_derivative(q, moment); }
+  Eigen::Matrix<double, 3, 4> body_moment_derivative(const double* q) const {
+    return to_body_derivative(q, moment);
+  }
 };
 
 /// A moment [N m] that is constant in the body.

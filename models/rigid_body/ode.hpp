@@ -9,8 +9,8 @@
 
 namespace gnomon::rigid_body {
 
-/// The rates of y = (q, m), q the quaternion body -> space (w, x, y, z), m the body angular momentum [kg m^2/s]:
-/// q' = 1/2 q o (0, I^-1 m), m' = m x I^-1 m + tau(q). In any precision, for references.
+/// The rates of y = (q, m), q the quaternion body -> space (w, x, y, z), m the body angular momentum [kg
+/// m^2/s]: q' = 1/2 q o (0, I^-1 m), m' = m x I^-1 m + tau(q). In any precision, for references.
 template <class Load, class Real>
 void rates(const Vector<double>& inertia, const Load& load, const Real* y, Real* rate) {
   const Vector<Real> m(y[4], y[5], y[6]);
@@ -27,16 +27,18 @@ void rates(const Vector<double>& inertia, const Load& load, const Real* y, Real*
 
 /// Writes the derivative of `rates` by y into a column-major matrix with `rows` rows, from its top left on.
 template <class Load>
-void rates_jacobian(const Vector<double>& inertia, const Load& load, const double* y, double* values, int rows) {
+void rates_jacobian(const Vector<double>& inertia, const Load& load, const double* y, double* values,
+                    int rows) {
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 7>, 0, Eigen::OuterStride<>> J(values, 7, 7,
-                                                                                 Eigen::OuterStride<>(rows));
+                                                                                  Eigen::OuterStride<>(rows));
   const Vector<double> m(y[4], y[5], y[6]), inverse = inertia.cwiseInverse(), w = m.cwiseProduct(inverse);
   J.setZero();
   J(0, 1) = -0.5 * w[0], J(0, 2) = -0.5 * w[1], J(0, 3) = -0.5 * w[2];
   J(1, 0) = 0.5 * w[0], J(1, 2) = 0.5 * w[2], J(1, 3) = -0.5 * w[1];
   J(2, 0) = 0.5 * w[1], J(2, 1) = -0.5 * w[2], J(2, 3) = 0.5 * w[0];
   J(3, 0) = 0.5 * w[2], J(3, 1) = 0.5 * w[1], J(3, 2) = -0.5 * w[0];
-  const double q[4][3] = {{-y[1], -y[2], -y[3]}, {y[0], -y[3], y[2]}, {y[3], y[0], -y[1]}, {-y[2], y[1], y[0]}};
+  const double q[4][3] = {
+      {-y[1], -y[2], -y[3]}, {y[0], -y[3], y[2]}, {y[3], y[0], -y[1]}, {-y[2], y[1], y[0]}};
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 3; ++k) J(i, 4 + k) = 0.5 * q[i][k] * inverse[k];
   for (int k = 0; k < 3; ++k) {
@@ -64,7 +66,9 @@ struct OdeForm {
   void pack(const State& state, double* y) const { pack_state(state, y); }
   State unpack(const double* y) const { return unpack_state(y); }
   void rhs(double, const double* y, double* rate) const { rates(inertia, load, y, rate); }
-  void jacobian(double, const double* y, double* values) const { rates_jacobian(inertia, load, y, values, 7); }
+  void jacobian(double, const double* y, double* values) const {
+    rates_jacobian(inertia, load, y, values, 7);
+  }
 };
 
 }  // namespace gnomon::rigid_body

@@ -23,7 +23,8 @@ Eigen::Quaterniond read_orientation(Section& body) {
     if (key == "rotation_vector") {
       const Eigen::Vector3d p = vector(body.numbers(key, 3, "three finite numbers (rotation vector, rad)"));
       const double angle = p.norm();
-      return angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, p / angle)) : Eigen::Quaterniond::Identity();
+      return angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, p / angle))
+                         : Eigen::Quaterniond::Identity();
     }
     const auto v = body.numbers(key, 4, "four finite numbers (unit quaternion w, x, y, z, body -> space)");
     Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
@@ -41,7 +42,8 @@ Eigen::Quaterniond read_orientation(Section& body) {
 
 ParsedModel read(Section& root, double t_end) {
   std::optional<Section> body = root.section("body");
-  if (!body) root.fail("body", "nothing", "a table [body] with inertia and angular_momentum or angular_velocity");
+  if (!body)
+    root.fail("body", "nothing", "a table [body] with inertia and angular_momentum or angular_velocity");
 
   const Eigen::Vector3d inertia =
       vector(body->numbers("inertia", 3, "three positive numbers (principal moments, kg m^2)"));
@@ -50,8 +52,10 @@ ParsedModel read(Section& root, double t_end) {
   const Eigen::Quaterniond q = read_orientation(*body);
   const std::string key = body->exactly_one("angular_momentum", "angular_velocity", "the motion at t = 0");
   const bool momentum = key == "angular_momentum";
-  const Eigen::Vector3d given = vector(body->numbers(
-      key, 3, momentum ? "three finite numbers (body components, kg m^2/s)" : "three finite numbers (body components, rad/s)"));
+  const Eigen::Vector3d given =
+      vector(body->numbers(key, 3,
+                           momentum ? "three finite numbers (body components, kg m^2/s)"
+                                    : "three finite numbers (body components, rad/s)"));
   const Eigen::Vector3d m = momentum ? given : Eigen::Vector3d(given.cwiseProduct(inertia));
   body->finish();
 
@@ -74,15 +78,18 @@ ParsedModel read(Section& root, double t_end) {
     resolved["load"] = {{"kind", kind}};
     if (kind == "gravity") {
       const double weight = load->positive("weight", "a positive number (weight, N, along -z of space)");
-      const Eigen::Vector3d centre = vector(load->numbers("centre", 3, "three finite numbers (body point, m)"));
+      const Eigen::Vector3d centre =
+          vector(load->numbers("centre", 3, "three finite numbers (body point, m)"));
       resolved["load"]["weight"] = weight;
       resolved["load"]["centre"] = list(centre);
       parsed.model = box(RigidBody<Gravity>(inertia, initial, {weight, centre}, t_end));
     } else if (kind != "none") {
       const Eigen::Vector3d moment = vector(load->numbers("moment", 3, "three finite numbers (N m)"));
       resolved["load"]["moment"] = list(moment);
-      if (kind == "space_moment") parsed.model = box(RigidBody<SpaceMoment>(inertia, initial, {moment}, t_end));
-      else parsed.model = box(RigidBody<BodyMoment>(inertia, initial, {moment}, t_end));
+      if (kind == "space_moment")
+        parsed.model = box(RigidBody<SpaceMoment>(inertia, initial, {moment}, t_end));
+      else
+        parsed.model = box(RigidBody<BodyMoment>(inertia, initial, {moment}, t_end));
     }
     load->finish();
   }

@@ -8,10 +8,12 @@ ParsedModel read(Section& root, double t_end);
 
 inline constexpr ModelEntry entry{
     .name = "rigid_body",
-    .summary = "rotation of a rigid body about its centre of mass or a pivot; loads: none, gravity, space_moment, "
-               "body_moment",
-    .citation = "L. Euler 1765; notation of A. Munjiza, The Combined Finite-Discrete Element Method, Wiley 2004, "
-                "section 5.6",
+    .summary =
+        "rotation of a rigid body about its centre of mass or a pivot; loads: none, gravity, space_moment, "
+        "body_moment",
+    .citation =
+        "L. Euler 1765; notation of A. Munjiza, The Combined Finite-Discrete Element Method, Wiley 2004, "
+        "section 5.6",
     .read = read,
 };
 

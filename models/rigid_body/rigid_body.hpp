@@ -24,12 +24,12 @@ class RigidBody {
   using State = rigid_body::State;
   static constexpr std::string_view model_name = "rigid_body";
   static constexpr std::string_view variant = Load::kind;
-  static constexpr std::array<MetricInfo, 2> metrics{
-      MetricInfo{"orientation", "rad", std::numbers::pi}, MetricInfo{"momentum", "1", 1.0}};
+  static constexpr std::array<MetricInfo, 2> metrics{MetricInfo{"orientation", "rad", std::numbers::pi},
+                                                     MetricInfo{"momentum", "1", 1.0}};
   static constexpr bool has_moment = !std::is_same_v<Load, Free>;
 
-  /// Principal moments of inertia [kg m^2], the initial state, the load and the time [s] that the scene is run to
-  /// (which sets the momentum scale of a body that a constant moment sets in motion).
+  /// Principal moments of inertia [kg m^2], the initial state, the load and the time [s] that the scene is
+  /// run to (which sets the momentum scale of a body that a constant moment sets in motion).
   RigidBody(const Vector<double>& inertia, const State& initial, Load load, double horizon)
       : inertia_(inertia), initial_(initial), load_(std::move(load)) {
     const double largest = inertia.maxCoeff(), smallest = inertia.minCoeff();
@@ -56,14 +56,10 @@ class RigidBody {
   std::vector<double> breaks() const { return {}; }
 
   /// Moment about the reference point in space components, N m.
-  Vector<double> moment(double t, const Eigen::Matrix3d& attitude) const
-    requires has_moment
-  {
+  Vector<double> moment(double t, const Eigen::Matrix3d& attitude) const requires has_moment {
     return load_.space_moment(t, attitude);
   }
-  Vector<double> moment(double, const Eigen::Matrix3d&) const
-    requires(!has_moment)
-  {
+  Vector<double> moment(double, const Eigen::Matrix3d&) const requires(!has_moment) {
     return Vector<double>::Zero();
   }
 
@@ -74,7 +70,8 @@ class RigidBody {
     return flat;
   }
   State restore(const std::vector<double>& flat) const {
-    return {Eigen::Map<const Eigen::Matrix3d>(flat.data()), Eigen::Map<const Eigen::Vector3d>(flat.data() + 9)};
+    return {Eigen::Map<const Eigen::Matrix3d>(flat.data()),
+            Eigen::Map<const Eigen::Vector3d>(flat.data() + 9)};
   }
   std::vector<Named> observe(const State& state) const {
     const Eigen::Quaterniond q = unit_quaternion(state.attitude);
@@ -86,7 +83,8 @@ class RigidBody {
   std::array<double, 2> distance(const State& state, const State& reference) const {
     const double scale = std::max(initial_.angular_momentum.norm(), reference.angular_momentum.norm());
     const double difference = (state.angular_momentum - reference.angular_momentum).norm();
-    return {geodesic_angle(state.attitude, reference.attitude), difference / (scale > 0.0 ? scale : momentum_scale_)};
+    return {geodesic_angle(state.attitude, reference.attitude),
+            difference / (scale > 0.0 ? scale : momentum_scale_)};
   }
 
   std::vector<InvariantInfo> invariant_info() const {
@@ -111,9 +109,10 @@ class RigidBody {
     return infos;
   }
 
-  /// orthonormality: largest entry of |A^T A - 1|. energy T + V [J]. angular_momentum: A m, in space. momentum_norm: |m|.
-  /// vertical_momentum: (A m).e3. axial_momentum: m along the axis of a Lagrange top. kovalevskaya: the fourth integral
-  /// of the Kovalevskaya top. momentum_balance: A m - M t for a space-constant moment M.
+  /// orthonormality: largest entry of |A^T A - 1|. energy T + V [J]. angular_momentum: A m, in space.
+  /// momentum_norm: |m|. vertical_momentum: (A m).e3. axial_momentum: m along the axis of a Lagrange top.
+  /// kovalevskaya: the fourth integral of the Kovalevskaya top. momentum_balance: A m - M t for a
+  /// space-constant moment M.
   void invariants(double t, const State& state, double* out) const {
     const Eigen::Matrix3d& A = state.attitude;
     const Eigen::Vector3d& m = state.angular_momentum;
@@ -150,18 +149,14 @@ class RigidBody {
   }
 
   /// The closed form of the free body in double precision, as an integrator of its own.
-  State closed_form(double t) const
-    requires(!has_moment)
-  {
+  State closed_form(double t) const requires(!has_moment) {
     const ExactFreeTop<double> top(inertia_, unit_quaternion(initial_.attitude), initial_.angular_momentum);
     const auto state = top.at(t);
     return {state.orientation.normalized().toRotationMatrix(), state.angular_momentum};
   }
 
   /// The same in extended precision, as a reference with its bound.
-  Exact<RigidBody> exact(double t) const
-    requires(!has_moment)
-  {
+  Exact<RigidBody> exact(double t) const requires(!has_moment) {
     using Real = long double;
     const Eigen::Quaterniond q = unit_quaternion(initial_.attitude);
     const ExactFreeTop<Real> top(inertia_.cast<Real>(), q.cast<Real>().normalized(),
@@ -171,7 +166,8 @@ class RigidBody {
     const double coefficients[4] = {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
     // The state is rounded to double, and so was the initial one: a unit in the last place each.
     const double bound = static_cast<double>(top.error_bound(Real(t))) + 8.0 * 2.2e-16;
-    return {{homogeneous_matrix(coefficients), state.angular_momentum.template cast<double>()}, {bound, bound}};
+    return {{homogeneous_matrix(coefficients), state.angular_momentum.template cast<double>()},
+            {bound, bound}};
   }
 
  private:

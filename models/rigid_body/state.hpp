@@ -38,7 +38,8 @@ inline State unpack_state(const double* y) {
   return {homogeneous_matrix(y), Eigen::Vector3d(y[4], y[5], y[6])};
 }
 
-/// The angle [rad, 0 to pi] of the rotation that takes one attitude to the other; accurate to rounding at every angle.
+/// The angle [rad, 0 to pi] of the rotation that takes one attitude to the other; accurate to rounding at
+/// every angle.
 inline double geodesic_angle(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   const Eigen::Quaterniond q = unit_quaternion(a), r = unit_quaternion(b);
   const Eigen::Quaterniond relative = q.conjugate() * r;

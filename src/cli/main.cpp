@@ -1,30 +1,44 @@
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+
 #include <fmt/format.h>
+
 #include "integrators/catalogue.hpp"
 #include "models/catalogue.hpp"
-#include "src/reference.hpp"
-using namespace gnomon;
+#include "src/cli/command.hpp"
+#include "src/cli/parse.hpp"
+#include "src/error.hpp"
+
+namespace {
+
+// The one place that a signal handler can reach.
+std::atomic<bool> stop_requested{false};
+
+void request_stop(int signal) {
+  stop_requested.store(true);
+  std::signal(signal, SIG_DFL);  // a second Ctrl-C ends at once
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  Catalogue c; add_models(c); add_integrators(c);
-  ReferenceStore store("/tmp/refs");
-  for (auto& s : shipped_scenes(c)) {
-    if (argc > 1 && s.name != argv[1]) continue;
-    Scene scene = load_scene(c, s.name);
-    for (auto&w: scene.warnings) fmt::print("{}\n", w);
-    double b = wall_seconds();
-    const auto& r = store.get(scene, {scene.t_end});
-    fmt::print("{} {} bound {} {} ({:.2f} s) {}\n", s.name, r.kind, r.bounds.empty()?-1:r.bounds[0][0], r.bounds.empty()?-1:r.bounds[0][1], wall_seconds()-b, r.message);
-    for (const auto* info : c.schemes_for(*scene.model)) {
-      const Pair* p = c.pair(info->name, *scene.model);
-      for (double x : {1.0, 0.25}) {
-      RunSpec spec; spec.t_end = scene.t_end;
-      if (info->stepping == Stepping::fixed) spec.step = scene.model->time_scale()*0.1*x; else if (info->stepping==Stepping::adaptive) spec.tol = x==1?1e-6:1e-11;
-      spec.record=false;
-      auto q = p->run(scene.model->get(), spec);
-      if (q.status==Status::ok) q = p->run(scene.model->get(), spec);
-      std::vector<double> e{-1,-1};
-      if (!r.states.empty()) e = scene.model->distance(q.state, r.states[0]);
-      fmt::print("  {:24} {:8} err {:.3e} {:.3e} steps {} rhs {} cpu {:.1f} us {:.1f} ns/step {}\n", info->name, to_string(q.status), e[0], e[1], q.cost.steps, q.cost.rhs, q.cpu_seconds*1e6, q.cpu_seconds*1e9/double(std::max(1L,q.cost.steps)), q.message);
-      }
-    }
+  using namespace gnomon;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  try {
+    Catalogue catalogue;
+    add_models(catalogue);
+    add_integrators(catalogue);
+    return cli::parse_and_run(catalogue, stop_requested, argc, argv);
+  } catch (const UsageError& error) {
+    std::cerr << "gnomon: " << error.what() << '\n';
+    return cli::bad_usage;
+  } catch (const std::exception& error) {
+    std::cerr << "gnomon: " << error.what() << '\n';
+    return cli::run_failed;
   }
 }

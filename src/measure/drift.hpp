@@ -31,12 +31,15 @@ struct Drift {
 
 /// Drift of an invariant from its signed errors d at the given times, in any order. The errors are relative
 /// to the invariant's scale, so that 1e-13 is the size of rounding; `start` is the time at which the error is
-/// zero by definition. Sample at jittered times: equal steps can hide an oscillation of the same period. With
-/// b +- s the slope, A the oscillation and T the time span:
-///   roundoff if max |d| <= 1e-13;
-///   secular if |b| > 3 s and |b| T > A, unless the error only dies away; also if it grows like t or faster;
-///   bounded otherwise if alpha < 0.1;  roundoff otherwise if max |d| < 1e-9.
-/// Below 32 samples only max |d| decides. Throws std::invalid_argument if the lengths differ.
+/// zero by definition. Sample at jittered times: equal steps can hide an oscillation of the same period.
+/// With b +- s the slope of the line through (up to) 64 block means, A the oscillation, T the time span:
+///   roundoff  if max |d| <= 1e-13;
+///   secular   if |b| > 3 s and |b| T > A, unless the error dies away; also if alpha > 0.8 and the second
+///             half of the run confirms it (1.5 below 1e-9, where a random walk may reach 1);
+///   bounded   otherwise if alpha < 0.1;
+///   roundoff  otherwise if max |d| < 1e-9;  undecided otherwise.
+/// "Bounded" says nothing of the size: show max |d| beside it. Below 32 samples only max |d| decides. Throws
+/// std::invalid_argument if the lengths differ.
 Drift measure_drift(std::span<const double> times, std::span<const double> errors, double start);
 
 /// n increasing times in (t0, t1], one at random in each of n equal parts, the last at t1. The same seed

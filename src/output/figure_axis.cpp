@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "src/output/text.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double smallest = 1e-300;
 constexpr double largest = 1e300;
+constexpr int fewest_labels = 6;       // from which on steps of 1, 2, 5 always leave two
 constexpr double margin = 0.04;        // of the axis, on each side of the data
 constexpr double least_decades = 0.9;  // of a log axis, so that there are always two labels
 
@@ -27,7 +29,9 @@ std::string power_label(int multiple, int exponent) {
 }
 
 /// multiple * 10^exponent, correctly rounded.
-double decimal(int multiple, int exponent) { return std::stod(fmt::format("{}e{}", multiple, exponent)); }
+double decimal(int multiple, int exponent) {
+  return std::strtod(fmt::format("{}e{}", multiple, exponent).c_str(), nullptr);
+}
 
 bool contains(const Range& range, double value) { return range.low <= value && value <= range.high; }
 
@@ -56,7 +60,7 @@ int label_count(const std::vector<Tick>& ticks) {
 std::vector<Tick> log_ticks(const Range& range, int labels) {
   const int first = static_cast<int>(std::floor(std::log10(range.low)));
   const int last = static_cast<int>(std::ceil(std::log10(range.high)));
-  if (std::log10(range.high / range.low) < 2.0) {
+  if (std::log10(range.high) - std::log10(range.low) < 2.0) {
     for (const auto& labelled : {std::vector<int>{1, 2, 5}, std::vector<int>{1, 3}}) {
       auto ticks = ticks_within_decades(range, first, last, labelled);
       if (label_count(ticks) <= labels) return ticks;
@@ -66,11 +70,16 @@ std::vector<Tick> log_ticks(const Range& range, int labels) {
     auto ticks = ticks_within_decades(range, first, last, {1});
     if (label_count(ticks) <= labels && label_count(ticks) >= 2) return ticks;
   }
-  int step = 1;
-  while ((last - first) / step + 1 > labels) ++step;
-  std::vector<Tick> ticks;
+  std::vector<int> powers;
   for (int exponent = first; exponent <= last; ++exponent) {
-    if (!contains(range, decimal(1, exponent))) continue;
+    if (contains(range, decimal(1, exponent))) powers.push_back(exponent);
+  }
+  // Multiples of the step, so that labels do not depend on where the data begin; there are then two or more.
+  const int count = static_cast<int>(powers.size());
+  const int step = (count + labels - 1) / labels;
+  std::vector<Tick> ticks;
+  for (const int exponent : powers) {
+    if (step > 5 && exponent % step != 0) continue;
     ticks.push_back({decimal(1, exponent), exponent % step == 0 ? power_label(1, exponent) : ""});
   }
   return ticks;
@@ -109,8 +118,15 @@ std::vector<Tick> linear_ticks(const Range& range, int labels) {
   return ticks;
 }
 
+/// Whether the ends of a linear range can be told apart on an axis.
+bool has_extent(const Range& range) {
+  const double scale = std::max(std::abs(range.low), std::abs(range.high));
+  return range.high - range.low > std::max(1e-12 * scale, smallest);
+}
+
 bool is_valid(const Range& range, bool log) {
-  return can_be_drawn(range.low, log) && can_be_drawn(range.high, log) && range.low < range.high;
+  if (!can_be_drawn(range.low, log) || !can_be_drawn(range.high, log)) return false;
+  return log ? range.high / 1.01 > range.low : has_extent(range);
 }
 
 Range padded(Range data, bool log) {
@@ -119,23 +135,24 @@ Range padded(Range data, bool log) {
     double high = std::log10(data.high);
     double extra = margin * (high - low);
     extra = std::max(extra, 0.5 * (least_decades - (high - low)));
-    return {std::pow(10.0, low - extra), std::pow(10.0, high + extra)};
+    return {std::pow(10.0, std::max(low - extra, -304.0)), std::pow(10.0, std::min(high + extra, 304.0))};
   }
-  const double scale = std::max(std::abs(data.low), std::abs(data.high));
   const double span = data.high - data.low;
-  if (span > 1e-12 * scale) return {data.low - margin * span, data.high + margin * span};
-  const double extra = scale > 0.0 ? 0.5 * scale : 1.0;
+  if (has_extent(data)) return {data.low - margin * span, data.high + margin * span};
+  const double scale = std::max(std::abs(data.low), std::abs(data.high));
+  const double extra = scale > smallest ? 0.5 * scale : 1.0;
   return {data.low - extra, data.high + extra};
 }
 
 }  // namespace
 
 double Axis::position(double value) const {
-  if (log) return std::log(value / range.low) / std::log(range.high / range.low);
+  // Not the logarithm of ratios, which can overflow.
+  if (log) return (std::log(value) - std::log(range.low)) / (std::log(range.high) - std::log(range.low));
   return (value - range.low) / (range.high - range.low);
 }
 
-double Axis::decade() const { return log ? 1.0 / std::log10(range.high / range.low) : 0.0; }
+double Axis::decade() const { return log ? 1.0 / (std::log10(range.high) - std::log10(range.low)) : 0.0; }
 
 bool can_be_drawn(double value, bool log) {
   if (!std::isfinite(value) || std::abs(value) > largest) return false;
@@ -164,7 +181,7 @@ Axis make_axis(bool log, const std::optional<Range>& data, const std::optional<R
   } else {
     axis.range = data ? padded(*data, log) : Range{log ? 1.0 : 0.0, log ? 10.0 : 1.0};
   }
-  labels = std::max(labels, 2);
+  labels = std::max(labels, fewest_labels);
   axis.ticks = log ? log_ticks(axis.range, labels) : linear_ticks(axis.range, labels);
   return axis;
 }

@@ -34,9 +34,9 @@ std::optional<Range> range_of(const std::vector<double>& values, bool log);
 std::optional<Range> united(const std::optional<Range>& a, const std::optional<Range>& b);
 
 /// An axis that shows `data` with a small margin, or exactly `fixed` if that is a valid range. `labels` is
-/// the number of tick labels it has room for, at least 2. Log axes have minor ticks at the multiples of each
-/// power of ten, or at powers of ten if not every one is labelled and labels for 2 and 5 where it spans less
-/// than two decades.
+/// the number of tick labels it has room for, at least 6; two or more are made. A log axis labels powers of
+/// ten, with minor ticks at their multiples if every power is labelled, else at the other powers; one that
+/// spans less than two decades labels 1, 2 and 5 times them.
 Axis make_axis(bool log, const std::optional<Range>& data, const std::optional<Range>& fixed, int labels);
 
 /// Width in characters of the widest tick label as it is drawn (without the markup).

@@ -144,9 +144,10 @@ std::optional<std::vector<Point>> labels_at_ends(Occupied& occupied, const std::
 std::optional<GuidePlace> place_guides(Occupied& occupied, const Box& area, const std::vector<double>& slopes,
                                        const std::vector<double>& text_widths, double text_height) {
   if (slopes.empty()) return std::nullopt;
-  const auto [least, greatest] = std::minmax_element(slopes.begin(), slopes.end());
-  const double steepest_up = std::max(0.0, *greatest);
-  const double steepest_down = std::min(0.0, *least);
+  const double least = *std::min_element(slopes.begin(), slopes.end());
+  const double greatest = *std::max_element(slopes.begin(), slopes.end());
+  const double steepest_up = std::max(0.0, greatest);
+  const double steepest_down = std::min(0.0, least);
   const double area_width = area.right - area.left;
   const double area_height = area.top - area.bottom;
   const double label_width = *std::max_element(text_widths.begin(), text_widths.end()) + 6.0;
@@ -163,12 +164,12 @@ std::optional<GuidePlace> place_guides(Occupied& occupied, const Box& area, cons
     const double strip = 8.0;
     for (double x = 0.0; x < width; x += strip) {
       const double to = std::min(x + strip, width);
-      const Box box = {origin.x + x, origin.y + std::min(*least * x, *least * to), origin.x + to,
-                       origin.y + std::max(*greatest * x, *greatest * to)};
+      const Box box = {origin.x + x, origin.y + std::min(least * x, least * to), origin.x + to,
+                       origin.y + std::max(greatest * x, greatest * to)};
       if (!occupied.is_free(grown(box, clearance))) return false;
     }
-    const Box labels = {origin.x + width, origin.y + *least * width - 0.5 * text_height,
-                        origin.x + width + label_width, origin.y + *greatest * width + 0.5 * text_height};
+    const Box labels = {origin.x + width, origin.y + least * width - 0.5 * text_height,
+                        origin.x + width + label_width, origin.y + greatest * width + 0.5 * text_height};
     return occupied.is_free(grown(labels, clearance));
   };
 
@@ -201,13 +202,13 @@ std::optional<GuidePlace> place_guides(Occupied& occupied, const Box& area, cons
 
 Point label_on_horizontal(Occupied& occupied, const Box& area, double y, double text_width,
                           double text_height) {
-  const double offset = 0.5 * text_height + 2.0;
+  // More than a cell from the line, which is an obstacle itself.
+  const double offset = 0.5 * text_height + 1.3 * cell;
   const double rightmost = area.right - text_width - 8.0;
   Point chosen = {rightmost, y + offset};
   bool found = false;
   for (const double side : {offset, -offset}) {
     for (double x = rightmost; x >= area.left + 8.0 && !found; x -= 6.0) {
-      // The line itself must not count as an obstacle, so the box is not grown.
       found = occupied.is_free(text_box({x, y + side}, text_width, text_height));
       if (found) chosen = {x, y + side};
     }

@@ -159,21 +159,32 @@ Occupied occupied_by_curves(const DrawnPanel& panel, const Box& area) {
   return occupied;
 }
 
-void add_reference_lines(DrawnPanel& panel, const Panel& data, Occupied& occupied) {
-  std::vector<double> heights;
+/// A reference line within the panel.
+struct PlacedLine {
+  double y;
+  std::string label;
+};
+
+std::vector<PlacedLine> add_reference_lines(DrawnPanel& panel, const Panel& data, Occupied& occupied) {
+  std::vector<PlacedLine> placed;
   for (const ReferenceLine& line : data.reference_lines) {
     if (!can_be_drawn(line.y, data.log_y)) continue;
     const double position = panel.y.position(line.y);
     if (position < 0.0 || position > 1.0) continue;
     const double y = panel.frame.bottom + position * (panel.frame.top - panel.frame.bottom);
-    const std::string label = plain_text(line.label);
-    const double width = text_width(label, text_size);
-    const Point at = label_on_horizontal(occupied, panel.frame, y, width, text_size + 2.0);
-    panel.decoration.texts.push_back({at, Anchor::left, label, text_size, grey});
     panel.decoration.strokes.push_back({{panel.frame.left, y}, {panel.frame.right, y}, grey, 1.4, "(3,3)"});
-    heights.push_back(y);
+    occupied.add_line({panel.frame.left, y}, {panel.frame.right, y});
+    placed.push_back({y, plain_text(line.label)});
   }
-  for (const double y : heights) occupied.add_line({panel.frame.left, y}, {panel.frame.right, y});
+  return placed;
+}
+
+void name_reference_lines(DrawnPanel& panel, const std::vector<PlacedLine>& lines, Occupied& occupied) {
+  for (const PlacedLine& line : lines) {
+    const double width = text_width(line.label, text_size);
+    const Point at = label_on_horizontal(occupied, panel.frame, line.y, width, text_size + 2.0);
+    panel.decoration.texts.push_back({at, Anchor::left, line.label, text_size, grey});
+  }
 }
 
 /// Returns whether there was a place for the guides, if any.
@@ -262,12 +273,15 @@ void add_axis_labels(DrawnPanel& panel, const Panel& data, const Frame& frame) {
   }
 }
 
-/// The range of x, longer at the right if names are to stand there within the frame.
-std::optional<Range> with_room(std::optional<Range> range, bool log, Naming naming) {
-  if (!range || naming != Naming::at_ends) return range;
-  const double part = 0.15;
-  range->high = log ? range->high * std::pow(range->high / range->low, part)
-                    : range->high + part * (range->high - range->low);
+/// The range of x, longer at the right so that names of the width `text` can stand there within the frame.
+std::optional<Range> with_room(std::optional<Range> range, bool log, double text) {
+  if (!range) return range;
+  const double part = std::min(0.3, text / 700.0);
+  const double low = range->low;
+  const double high = range->high;
+  // Factors that are not too large each, for ranges near those of double.
+  range->high =
+      log ? std::min(1e300, high * std::pow(high, part) / std::pow(low, part)) : high + part * (high - low);
   return range;
 }
 
@@ -293,8 +307,10 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
     panel.curves = curves[p];
     const bool shares = p % 2 == 1 && shares_y_axis(figure.panels[p - 1], figure.panels[p]);
     panel.y_labels = !shares;
-    panel.x = make_axis(figure.panels[p].log_x, with_room(x_range(figure, p), figure.panels[p].log_x, naming),
-                        figure.panels[p].x_range, several ? 6 : 8);
+    const bool log_x = figure.panels[p].log_x;
+    const double room = naming == Naming::at_ends ? widest(frame.entries) : 0.0;
+    panel.x = make_axis(log_x, with_room(x_range(figure, p), log_x, room), figure.panels[p].x_range,
+                        (several ? 6 : 8) + (log_x ? 2 : 0));
     panel.y =
         make_axis(figure.panels[p].log_y, y_range(figure, p), figure.panels[p].y_range, several ? 9 : 12);
     characters = std::max(characters, widest_label(panel.y));
@@ -311,10 +327,12 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
     DrawnPanel& panel = drawing.panels[p];
     Occupied occupied = occupied_by_curves(panel, panel.frame);
     if (naming == Naming::beside_frame && !name_beside_frame(panel)) return std::nullopt;
-    add_reference_lines(panel, figure.panels[p], occupied);
+    const auto lines = add_reference_lines(panel, figure.panels[p], occupied);
     if (naming == Naming::at_ends && !name_at_ends(panel, occupied)) return std::nullopt;
-    if (!add_guides(panel, figure.panels[p], occupied))
+    name_reference_lines(panel, lines, occupied);
+    if (!add_guides(panel, figure.panels[p], occupied)) {
       drawing.left_out.push_back("guide lines: no free place");
+    }
     add_axis_labels(panel, figure.panels[p], frame);
   }
   const double middle = 0.5 * (drawing.panels.front().frame.left + drawing.panels.back().frame.right);

@@ -86,11 +86,10 @@ std::string csv_field(const std::string& text) {
 std::string number(double value, int digits) {
   if (!std::isfinite(value)) return missing_text;
   if (value == 0.0) return "0";
-  std::string text = fmt::format("{:#.{}g}", value, digits);
-  if (text.back() == '.') text.pop_back();
-  const std::size_t dot_before_exponent = text.find(".e");
-  if (dot_before_exponent != std::string::npos) text.erase(dot_before_exponent, 1);
-  return text;
+  // As "%g" chooses, but with trailing zeros.
+  const int exponent = rounded_exponent(value, digits);
+  if (exponent < -4 || exponent >= digits) return fmt::format("{:.{}e}", value, digits - 1);
+  return fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent));
 }
 
 std::string engineering(double value, int digits) {

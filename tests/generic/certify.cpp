@@ -16,10 +16,10 @@ using gnomon::CertifyOptions;
 using gnomon::CertifyProblem;
 using gnomon::Distances;
 using gnomon::error_bounds;
-using gnomon::test::distance;
-using gnomon::test::Kepler;
-using gnomon::test::Lorenz;
-using gnomon::test::StiffPair;
+using gnomon::generic::test::distance;
+using gnomon::generic::test::Kepler;
+using gnomon::generic::test::Lorenz;
+using gnomon::generic::test::StiffPair;
 using Long = long double;
 
 template <class Real>
@@ -132,6 +132,20 @@ TEST_CASE("generic: a certified solution says how it was made") {
   CHECK(solution.methods[3].find("order 16, " + std::to_string(solution.steps / 2) + " steps") !=
         std::string::npos);
   CHECK(solution.loose_distance >= 10 * solution.distances.methods);
+}
+
+TEST_CASE("generic: the contraction of the steps is measured from one doubling to the next") {
+  auto f = unsegmented(Kepler<Long>{});
+  CertifyOptions<Long> options;
+  options.target = 1e-4L;
+  const auto first = certify(f, kepler_problem(15.75L), options);
+  options.target = 0.9L * first.distances.steps;
+  const auto second = certify(f, kepler_problem(15.75L), options);
+  CHECK(second.steps == 2 * first.steps);
+  CHECK(second.coarse == first.fine);
+  CHECK(second.step_contraction == second.distances.steps / first.distances.steps);
+  CHECK(second.step_contraction > 1e-7L);
+  CHECK(second.step_contraction < 0.1L);
 }
 
 TEST_CASE("generic: certification sees a method that solves other equations") {

@@ -11,9 +11,9 @@ namespace {
 
 using gnomon::generic::integrate_extrapolation;
 using gnomon::generic::Status;
-using gnomon::test::distance;
-using gnomon::test::Kepler;
-using gnomon::test::Oscillator;
+using gnomon::generic::test::distance;
+using gnomon::generic::test::Kepler;
+using gnomon::generic::test::Oscillator;
 using Long = long double;
 
 constexpr long many = 10'000'000;
@@ -32,6 +32,14 @@ TEST_CASE("generic: extrapolation reaches the rounding level of long double on c
     CHECK(out.t == t1);
     CHECK(distance(y, kepler.position(t1)) <= 2e-17L);
   }
+  // A tolerance below rounding is not pursued, and that is said.
+  auto x = kepler.initial();
+  const auto limited = integrate_extrapolation(kepler, x, Long(0), 15.7L, scale, 1e-25L, many);
+  CHECK(limited.ok);
+  CHECK(limited.rounding_limited == limited.steps);
+  CHECK(limited.evaluations < 10'000);
+  CHECK(distance(x, kepler.position(15.7L)) <= 2e-17L);
+
   const Oscillator<Long> oscillator;
   auto y = oscillator.initial();
   CHECK(integrate_extrapolation(oscillator, y, Long(0), 20.0L, {1, 1}, tightest, many).ok);
@@ -109,18 +117,17 @@ TEST_CASE("generic: extrapolation reports a right-hand side that is not a number
   CHECK(std::abs(y[0] - std::exp(-out.t)) <= 1e-9);
   CHECK(out.evaluations < 100'000);
 
-  // A component that nothing else depends on must not be overlooked, at any substep.
-  for (const int bad : {1, 2, 3, 4, 5}) {
-    int call = 0;
-    const auto hidden = [&](double, const double* x, double* dydt) {
-      dydt[0] = -x[0];
-      dydt[1] = ++call % 6 == bad ? nan : 1.0;
-    };
-    std::vector<double> z{1, 0};
-    const auto hidden_out = integrate_extrapolation(hidden, z, 0.0, 1.0, {1, 1}, 1e-10, 100'000);
-    CHECK((hidden_out.rejected > 0 || !hidden_out.ok));
-    CHECK(std::isfinite(z[1]));
-  }
+  // Not a number only near t = 1/3, which in a step from 0 to 1 is an even substep of every row that meets
+  // it, and only in a component that nothing else depends on: the value at the end of the step would not show
+  // it.
+  const auto hidden = [&](double t, const double* x, double* dydt) {
+    dydt[0] = -x[0];
+    dydt[1] = std::abs(t - 1.0 / 3) < 1e-3 ? nan : 1.0;
+  };
+  std::vector<double> z{1, 0};
+  out = integrate_extrapolation(hidden, z, 0.0, 1.0, {1, 1}, 1e-10, 100'000, 1.0);
+  CHECK(out.rejected > 0);
+  CHECK(std::isfinite(z[1]));
 }
 
 TEST_CASE("generic: extrapolation ends at its limits") {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gnomon::test {
+namespace gnomon::generic::test {
 
 /// Planar Kepler problem with unit gravitational parameter, from the pericentre (1, 0) with speed v:
 /// eccentricity v^2 - 1, 0.301 for the default. State (x, y, vx, vy). Every binary format holds the data
@@ -86,4 +86,4 @@ struct Lorenz {
   std::vector<Real> initial() const { return {1, 1, 1}; }
 };
 
-}  // namespace gnomon::test
+}  // namespace gnomon::generic::test

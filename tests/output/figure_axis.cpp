@@ -30,16 +30,17 @@ using Labels = std::vector<std::string>;
 TEST_CASE("output: log axes label powers of ten with minor ticks between") {
   const Axis decades = make_axis(true, Range{2e-3, 0.5e1}, {}, 8);
   CHECK(labels(decades) == Labels{"10^{−2}", "10^{−1}", "10^{0}"});
-  CHECK(minor_ticks(decades) == 8 + 8 + 8 + 4);  // 2..9e-3, 2..9e-2, 2..9e-1, and 2..5 below the margin
+  CHECK(minor_ticks(decades) == 8 + 8 + 8 + 5);  // 2 to 9 in three decades, 2 to 6 in the last
   const Axis many = make_axis(true, Range{1e-14, 1e-1}, {}, 8);
   CHECK(labels(many) ==
         Labels{"10^{−14}", "10^{−12}", "10^{−10}", "10^{−8}", "10^{−6}", "10^{−4}", "10^{−2}"});
   CHECK(minor_ticks(many) == 7);  // the odd powers
+  CHECK(minor_ticks(make_axis(true, Range{1e-100, 1e100}, {}, 8)) == 0);
 }
 
 TEST_CASE("output: short log axes label 1, 2 and 5") {
   CHECK(labels(make_axis(true, Range{0.01, 0.05}, {}, 8)) == Labels{"0.01", "0.02", "0.05"});
-  CHECK(labels(make_axis(true, Range{1e-7, 4e-7}, {}, 8)) == Labels{"10^{−7}", "2×10^{−7}"});
+  CHECK(labels(make_axis(true, Range{1e-7, 4e-7}, {}, 8)) == Labels{"10^{−7}", "2×10^{−7}", "5×10^{−7}"});
   CHECK(labels(make_axis(true, Range{5.0, 5.0}, {}, 8)) == Labels{"2", "5", "10"});
 }
 
@@ -73,15 +74,15 @@ TEST_CASE("output: any data get ticks within the axis, in order, with two labels
     const double a = std::pow(10.0, exponent(generator)) * (log ? 1.0 : sign(generator));
     const double b = log ? std::min(1e300, a * std::pow(10.0, decades(generator)))
                          : a + std::abs(a) * std::pow(10.0, -decades(generator));
-    const int most = 2 + i % 11;
+    const int most = 6 + i % 8;
     const Axis axis = make_axis(log, Range{a, b}, {}, most);
     CAPTURE(log, a, b, most);
     REQUIRE(axis.range.low <= a);
     REQUIRE(axis.range.high >= b);
     REQUIRE(axis.position(a) >= 0.0);
     REQUIRE(axis.position(b) <= 1.0);
-    REQUIRE(labels(axis).size() >= (log ? 2U : 1U));
-    REQUIRE(labels(axis).size() <= static_cast<std::size_t>(most) + (log ? 0U : 0U));
+    REQUIRE(labels(axis).size() >= 2);
+    REQUIRE(labels(axis).size() <= static_cast<std::size_t>(most));
     REQUIRE(axis.ticks.size() <= 200);
     for (std::size_t k = 0; k < axis.ticks.size(); ++k) {
       REQUIRE(axis.position(axis.ticks[k].value) >= -1e-9);

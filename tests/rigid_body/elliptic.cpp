@@ -27,7 +27,7 @@ void check_half_quarter_period() {
     const Real quarter = jacobi.quarter_period();
     const auto v = jacobi.at(quarter / 2);
     INFO("k1 = " << k1);
-    // DLMF 22.5.ii, values at K/2.
+    // DLMF table 22.5.2.
     CHECK(std::abs(v.sn * std::sqrt(1 + k1) - 1) <= 8 * eps);
     CHECK(std::abs(v.cn / std::sqrt(k1 / (1 + k1)) - 1) <= 8 * eps * (1 + quarter));
     CHECK(std::abs(v.dn / std::sqrt(k1) - 1) <= 8 * eps * (1 + quarter));

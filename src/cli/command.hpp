@@ -1,0 +1,73 @@
+#pragma once
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/catalogue.hpp"
+#include "src/output/table.hpp"
+#include "src/study/json.hpp"
+#include "src/study/study.hpp"
+
+namespace gnomon::cli {
+
+/// Exit codes, a contract.
+inline constexpr int done = 0;         ///< all that was asked for was done
+inline constexpr int run_failed = 1;   ///< a run that was asked for by name failed
+inline constexpr int bad_usage = 2;    ///< bad usage or scene; nothing was written
+inline constexpr int interrupted = 3;  ///< what was finished is kept
+
+/// What the command line says, as text; `study_options` and the readers below turn it into numbers with clear
+/// errors.
+struct Request {
+  std::vector<std::string> scenes;
+  std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol;
+  std::vector<std::string> set;
+  std::string json, csv, out;
+  bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
+  std::string what;  ///< of `list`
+};
+
+/// Everything a command works with.
+struct Context {
+  const Catalogue& catalogue;
+  const std::atomic<bool>& stop;
+  Request request;
+};
+
+StudyOptions study_options(const Request& request);
+SceneChanges scene_changes(const Request& request);
+/// All scenes of the request; their warnings go to standard error. Throws UsageError when there is none.
+std::vector<Scene> load_scenes(const Context& context);
+/// A positive number from the command line, in the unit that `expected` names.
+double positive_number(const std::string& option, const std::string& text, const std::string& expected);
+
+/// Refuses output files that could not be written, before anything runs.
+void check_outputs(const Request& request);
+/// Prints a table unless standard output is taken by JSON or --quiet.
+void show(const Request& request, const output::Table& table);
+void say(const Request& request, const std::string& line);
+/// Writes --json and --csv where asked for.
+void write_outputs(const Request& request, const Document& document,
+                   const std::vector<output::Table>& tables);
+
+/// Writes a document that holds no runs.
+void write_json(const Request& request, const nlohmann::ordered_json& json);
+/// Where certified references are kept: beside the build.
+std::string reference_folder();
+/// Prints why the runs of a study failed, and gives the exit code: failures count where integrators were
+/// named.
+int verdict(const Context& context, const std::vector<const SceneStudy*>& studies);
+
+/// Refuses --steps or --tols that no chosen integrator could use.
+void check_ladders(const Context& context, const std::vector<Scene>& scenes, const StudyOptions& options);
+
+int list(Context& context);
+int run(Context& context);
+int converge(Context& context);
+int compare(Context& context);
+int drift(Context& context);
+int bench(Context& context);
+int doctor(Context& context);
+
+}  // namespace gnomon::cli

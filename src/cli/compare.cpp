@@ -1,0 +1,57 @@
+#include "src/study/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "src/cli/command.hpp"
+#include "src/cli/files.hpp"
+#include "src/environment.hpp"
+#include "src/study/present.hpp"
+
+namespace gnomon::cli {
+
+int compare(Context& context) {
+  const Request& request = context.request;
+  const StudyOptions options = study_options(request);
+  const std::vector<Scene> scenes = load_scenes(context);
+  check_ladders(context, scenes, options);
+  const std::string folder = request.out.empty() ? "gnomon-out" : request.out;
+
+  ReferenceStore references(reference_folder());
+  Runner runner(context.catalogue, references, context.stop);
+  std::size_t total = 0;
+  for (const Scene& scene : scenes) total += compare_runs(context.catalogue, scene, options);
+  output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);
+  Document document(context.catalogue, "compare");
+  std::vector<Comparison> studies;
+  std::vector<output::Table> tables;
+  std::vector<std::string> files;
+  for (const Scene& scene : scenes) {
+    studies.push_back(compare(runner, scene, options, progress));
+    const Comparison& study = studies.back();
+    document.add(study);
+    output::Table runs = runs_table(study, fmt::format("Work and precision, {}", study.scene.name));
+    runs.notes.push_back(sundials_line(context.catalogue));
+    const output::Table costs = costs_table(study);
+    Document own(context.catalogue, "compare");
+    own.add(study);
+    for (std::string& file : write_study(folder, "compare-" + study.scene.name, {runs, costs}, own,
+                                         work_precision_figure(context.catalogue, study), ""))
+      files.push_back(std::move(file));
+    tables.push_back(std::move(runs));
+    tables.push_back(costs);
+    if (study.interrupted) break;
+  }
+  progress.finish();
+  for (const output::Table& table : tables) show(request, table);
+  for (const std::string& file : files) say(request, "wrote " + file);
+  std::vector<const SceneStudy*> pointers;
+  for (const Comparison& study : studies) pointers.push_back(&study);
+  std::vector<output::Table> csv;
+  for (std::size_t k = 0; k < tables.size(); k += 2) csv.push_back(tables[k]);
+  write_outputs(request, document, csv);
+  return verdict(context, pointers);
+}
+
+}  // namespace gnomon::cli

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "src/cli/command.hpp"
+#include "src/cli/files.hpp"
+#include "src/study/present.hpp"
+
+namespace gnomon::cli {
+
+int drift(Context& context) {
+  const Request& request = context.request;
+  const StudyOptions options = study_options(request);
+  const std::vector<Scene> scenes = load_scenes(context);
+  check_ladders(context, scenes, options);
+
+  ReferenceStore references(reference_folder());
+  Runner runner(context.catalogue, references, context.stop);
+  std::size_t total = 0;
+  for (const Scene& scene : scenes) total += select(context.catalogue, scene, options).size();
+  output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);
+  Document document(context.catalogue, "drift");
+  std::vector<DriftStudy> studies;
+  for (const Scene& scene : scenes) {
+    studies.push_back(drift(runner, scene, options, progress));
+    document.add(studies.back());
+    document.add_drifts(studies.back());
+    if (studies.back().interrupted) break;
+  }
+  progress.finish();
+
+  std::vector<output::Table> tables;
+  std::vector<const SceneStudy*> pointers;
+  for (const DriftStudy& study : studies) {
+    tables.push_back(drift_table(study));
+    pointers.push_back(&study);
+    show(request, tables.back());
+    if (request.out.empty()) continue;
+    Document own(context.catalogue, "drift");
+    own.add(study);
+    own.add_drifts(study);
+    for (const std::string& file : write_study(request.out, "drift-" + study.scene.name, {tables.back()}, own,
+                                               drift_figure(context.catalogue, study, "energy"), ""))
+      say(request, "wrote " + file);
+  }
+  write_outputs(request, document, tables);
+  return verdict(context, pointers);
+}
+
+}  // namespace gnomon::cli

@@ -1,0 +1,18 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/output/figure.hpp"
+#include "src/output/table.hpp"
+#include "src/study/json.hpp"
+
+namespace gnomon::cli {
+
+/// Writes `folder/stem`.md, .csv (of the first table), .json and, where there is a figure, .svg and .png.
+/// Returns the names of the files; a figure that could not be drawn gives a message on standard error.
+std::vector<std::string> write_study(const std::string& folder, const std::string& stem,
+                                     const std::vector<output::Table>& tables, const Document& document,
+                                     const std::optional<output::Figure>& figure, const std::string& heading);
+
+}  // namespace gnomon::cli

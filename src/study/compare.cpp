@@ -1,0 +1,75 @@
+#include "src/study/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "src/measure/work.hpp"
+
+namespace gnomon {
+namespace {
+
+std::vector<double> default_tols(bool quick) {
+  std::vector<double> tols;
+  for (int k = quick ? 3 : 5; k <= (quick ? 12 : 26); ++k)
+    tols.push_back(std::pow(10.0, quick ? -k : -0.5 * k));
+  return tols;
+}
+
+std::vector<Setting> ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
+  return settings(scheme, options, step_ladder(scene, options.quick ? 8 : 11, 1.0),
+                  default_tols(options.quick));
+}
+
+CostRow cost_of(const Comparison& study, const SchemeInfo& scheme) {
+  std::vector<WorkPoint> seconds, evaluations;
+  for (const Row& row : study.rows) {
+    if (row.scheme != &scheme || row.result.status == Status::time_limit ||
+        row.result.status == Status::step_limit)
+      continue;
+    const double error = row.error.empty() ? std::nan("") : row.error[0];
+    if (row.timing) seconds.push_back({error, row.timing->median});
+    if (row.evaluations() > 0) evaluations.push_back({error, static_cast<double>(row.evaluations())});
+  }
+  CostRow cost{&scheme, {}, {}};
+  for (double level : study.levels) {
+    cost.seconds.push_back(cost_at(seconds, level));
+    cost.evaluations.push_back(cost_at(evaluations, level));
+  }
+  return cost;
+}
+
+}  // namespace
+
+std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
+  std::size_t runs = 0;
+  for (const SchemeInfo* scheme : select(catalogue, scene, options))
+    runs += ladder(scene, *scheme, options).size();
+  return runs + (options.timing ? 1 : 0);
+}
+
+Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress) {
+  Comparison study;
+  study.scene = std::move(scene);
+  study.levels = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+  const auto schemes = select(runner.catalogue(), study.scene, options);
+  study.reference = runner.reference(study.scene, options);
+  for (const SchemeInfo* scheme : schemes)
+    for (const Setting& setting : ladder(study.scene, *scheme, options)) {
+      if (runner.stopped()) {
+        study.interrupted = true;
+        return study;
+      }
+      progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
+      study.rows.push_back(runner.run(study.scene, study.reference, *scheme, setting, options));
+    }
+  if (options.timing) {
+    progress.begin(fmt::format("{} / timing {} runs, interleaved", study.scene.name, study.rows.size()));
+    runner.time(study.scene, study.rows, options);
+  }
+  study.interrupted = runner.stopped();
+  for (const SchemeInfo* scheme : schemes) study.costs.push_back(cost_of(study, *scheme));
+  return study;
+}
+
+}  // namespace gnomon

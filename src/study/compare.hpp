@@ -1,0 +1,26 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "src/study/study.hpp"
+
+namespace gnomon {
+
+/// What it costs one scheme to reach an error in the first metric.
+struct CostRow {
+  const SchemeInfo* scheme;
+  std::vector<std::optional<double>> seconds;      ///< one a level
+  std::vector<std::optional<double>> evaluations;  ///< one a level
+};
+
+struct Comparison : SceneStudy {
+  std::vector<double> levels;  ///< errors in the unit of the first metric
+  std::vector<CostRow> costs;
+};
+
+/// Error against cost, a ladder of steps or tolerances for each scheme, timed interleaved.
+Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
+
+std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options);
+
+}  // namespace gnomon

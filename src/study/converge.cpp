@@ -1,0 +1,75 @@
+#include "src/study/converge.hpp"
+
+#include <fmt/format.h>
+
+namespace gnomon {
+namespace {
+
+std::vector<double> default_tols() {
+  std::vector<double> tols;
+  for (int k = 3; k <= 12; ++k) tols.push_back(std::pow(10.0, -k));
+  return tols;
+}
+
+std::vector<Setting> ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
+  return settings(scheme, options, step_ladder(scene, options.quick ? 13 : 17, 0.5), default_tols());
+}
+
+OrderRow observe(const Convergence& study, const SchemeInfo& scheme, std::size_t metric) {
+  const MetricInfo info = study.scene.model->metrics()[metric];
+  std::vector<OrderPoint> points;
+  for (const Row& row : study.rows) {
+    if (row.scheme != &scheme) continue;
+    OrderPoint point;
+    point.step = row.result.step.value_or(0.0);
+    point.usable = row.result.status == Status::ok && !row.error.empty();
+    if (point.usable)
+      point.error = row.error[metric];
+    else
+      point.why_not =
+          row.result.status == Status::ok ? "no reference" : std::string(to_string(row.result.status));
+    if (point.usable && !row.result.flags.empty()) {
+      point.usable = false;
+      point.why_not = row.result.flags.front();
+    }
+    points.push_back(std::move(point));
+  }
+  OrderOptions options;
+  options.scale = info.saturation;
+  if (!study.reference.bounds.empty()) options.bound = study.reference.bounds.back()[metric];
+  return {&scheme, std::string(info.name), observe_order(points, options),
+          scheme.order_for(study.scene.model->load_class())};
+}
+
+}  // namespace
+
+std::size_t converge_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
+  std::size_t runs = 0;
+  for (const SchemeInfo* scheme : select(catalogue, scene, options))
+    runs += ladder(scene, *scheme, options).size();
+  return runs;
+}
+
+Convergence converge(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress) {
+  Convergence study;
+  study.scene = std::move(scene);
+  const auto schemes = select(runner.catalogue(), study.scene, options);
+  study.reference = runner.reference(study.scene, options);
+  for (const SchemeInfo* scheme : schemes) {
+    for (const Setting& setting : ladder(study.scene, *scheme, options)) {
+      if (runner.stopped()) {
+        study.interrupted = true;
+        break;
+      }
+      progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
+      study.rows.push_back(runner.run(study.scene, study.reference, *scheme, setting, options));
+    }
+    if (study.interrupted) break;
+    if (scheme->stepping == Stepping::fixed)
+      for (std::size_t metric = 0; metric < study.scene.model->metrics().size(); ++metric)
+        study.orders.push_back(observe(study, *scheme, metric));
+  }
+  return study;
+}
+
+}  // namespace gnomon

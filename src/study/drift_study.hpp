@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "src/measure/drift.hpp"
+#include "src/study/study.hpp"
+
+namespace gnomon {
+
+/// The drift of one invariant in one run.
+struct DriftRow {
+  std::size_t row;  ///< of SceneStudy::rows
+  InvariantSummary invariant;
+  Drift drift;
+};
+
+struct DriftStudy : SceneStudy {
+  std::vector<DriftRow> drifts;
+};
+
+/// Long runs, their invariants sampled at jittered times so that no period is aliased, the trajectory error
+/// beside them.
+DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
+
+}  // namespace gnomon

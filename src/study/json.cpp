@@ -1,0 +1,179 @@
+#include "src/study/json.hpp"
+
+#include <cmath>
+
+#include "src/environment.hpp"
+
+namespace gnomon {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json optional(const std::optional<double>& value) { return value ? finite_or_null(*value) : Json(nullptr); }
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (double value : values) list.push_back(finite_or_null(value));
+  return list;
+}
+Json scalar_or_list(const std::vector<double>& values, int size) {
+  if (values.empty()) return nullptr;
+  return size == 1 ? finite_or_null(values[0]) : numbers(values);
+}
+
+Json named(const std::vector<Named>& components) {
+  Json json = Json::object();
+  for (const Named& component : components) json[component.name] = numbers(component.values);
+  return json;
+}
+
+Json cost_json(const Cost& cost) {
+  return {{"steps", cost.steps},
+          {"rejected", cost.rejected},
+          {"rhs", cost.rhs},
+          {"moments", cost.moments},
+          {"jacobians", cost.jacobians},
+          {"factorizations", cost.factorizations},
+          {"newton_iterations", cost.newton_iterations}};
+}
+
+Json invariants_json(const AnyModel& model, const Trace& trace) {
+  Json json = Json::object();
+  for (const InvariantSummary& summary : summarise_invariants(model, trace))
+    json[summary.info.name] = {{"since", summary.info.since},
+                               {"scale", summary.info.scale},
+                               {"initial", scalar_or_list(summary.initial, summary.info.size)},
+                               {"final", scalar_or_list(summary.final, summary.info.size)},
+                               {"max_drift", finite_or_null(summary.max_drift)},
+                               {"slope", finite_or_null(summary.slope)}};
+  return json;
+}
+
+/// Lists over the sample times: every component of the state, and below "invariants" every invariant.
+Json series_json(const AnyModel& model, const RunResult& result) {
+  Json json;
+  json["t"] = numbers(result.sample_times);
+  for (std::size_t k = 0; k < result.samples.size(); ++k) {
+    for (const Named& component : model.observe(result.samples[k]))
+      json[component.name].push_back(numbers(component.values));
+    const std::vector<double> values = model.invariants(result.sample_times[k], result.samples[k]);
+    auto value = values.begin();
+    for (const InvariantInfo& info : model.invariant_info()) {
+      json["invariants"][info.name].push_back(scalar_or_list({value, value + info.size}, info.size));
+      value += info.size;
+    }
+  }
+  return json;
+}
+
+Json run_json(const SceneStudy& study, const Row& row) {
+  const AnyModel& model = *study.scene.model;
+  const RunResult& result = row.result;
+  Json json;
+  json["scene"] = study.scene.name;
+  json["integrator"] = row.scheme->name;
+  json["step"] = optional(result.step);
+  json["requested_step"] = optional(row.setting.step);
+  json["tol"] = optional(row.setting.tol);
+  json["status"] = to_string(result.status);
+  json["message"] = result.message;
+  json["t"] = finite_or_null(result.t);
+  json["state"] = named(model.observe(result.state));
+  json["probes"] = Json::object();
+  json["invariants"] = invariants_json(model, result.invariants);
+  json["error"] = nullptr;
+  json["below_bound"] = nullptr;
+  if (!row.error.empty()) {
+    json["error"] = Json::object();
+    json["below_bound"] = Json::object();
+    for (std::size_t k = 0; k < row.error.size(); ++k) {
+      const std::string name(model.metrics()[k].name);
+      json["error"][name] = finite_or_null(row.error[k]);
+      json["below_bound"][name] = static_cast<bool>(row.below_bound[k]);
+    }
+  }
+  if (!result.samples.empty()) json["series"] = series_json(model, result);
+  json["cost"] = cost_json(result.cost);
+  json["cpu_seconds"] = nullptr;
+  if (row.timing)
+    json["cpu_seconds"] = {{"median", finite_or_null(row.timing->median)},
+                           {"min", finite_or_null(row.timing->min)},
+                           {"max", finite_or_null(row.timing->max)},
+                           {"repetitions", row.timing->repetitions},
+                           {"unstable", row.timing->unstable}};
+  json["flags"] = result.flags;
+  return json;
+}
+
+Json scene_json(const SceneStudy& study) {
+  Json json = study.scene.resolved;
+  const ReferenceStates& reference = study.reference;
+  json["reference"] = {{"kind", reference.kind.empty() ? Json(nullptr) : Json(reference.kind)},
+                       {"methods", reference.methods},
+                       {"error_bound", Json::object()}};
+  if (!reference.message.empty()) json["reference"]["message"] = reference.message;
+  const std::vector<MetricInfo> metrics = study.scene.model->metrics();
+  for (std::size_t k = 0; k < metrics.size() && !reference.bounds.empty(); ++k)
+    json["reference"]["error_bound"][std::string(metrics[k].name)] =
+        finite_or_null(reference.bounds.back()[k]);
+  if (!study.scene.warnings.empty()) json["warnings"] = study.scene.warnings;
+  return json;
+}
+
+}  // namespace
+
+Document::Document(const Catalogue& catalogue, const std::string& command) {
+  json_["gnomon"] = gnomon_version;
+  json_["command"] = command;
+  json_["environment"] = environment(catalogue);
+  json_["scenes"] = Json::array();
+  json_["runs"] = Json::array();
+  json_["orders"] = Json::array();
+}
+
+void Document::add(const SceneStudy& study) {
+  json_["scenes"].push_back(scene_json(study));
+  for (const Row& row : study.rows) json_["runs"].push_back(run_json(study, row));
+}
+
+void Document::add_orders(const Convergence& study) {
+  for (const OrderRow& row : study.orders) {
+    const ObservedOrder& order = row.order;
+    Json json;
+    json["scene"] = study.scene.name;
+    json["integrator"] = row.scheme->name;
+    json["metric"] = row.metric;
+    json["observed"] = optional(order.observed);
+    json["interval"] = order.observed ? numbers({order.interval[0], order.interval[1]}) : Json(nullptr);
+    json["expected"] = optional(row.expected);
+    json["points"] = order.points;
+    json["verdict"] = order.verdict;
+    json["dropped"] = Json::array();
+    for (const DroppedPoint& point : order.dropped)
+      json["dropped"].push_back(
+          {{"step", point.step}, {"error", finite_or_null(point.error)}, {"reason", point.reason}});
+    json_["orders"].push_back(std::move(json));
+  }
+}
+
+void Document::add_drifts(const DriftStudy& study) {
+  for (const DriftRow& row : study.drifts) {
+    const Row& run = study.rows[row.row];
+    json_["drifts"].push_back(
+        {{"scene", study.scene.name},
+         {"integrator", run.scheme->name},
+         {"step", optional(run.result.step)},
+         {"tol", optional(run.setting.tol)},
+         {"invariant", row.invariant.info.name},
+         {"max_drift", finite_or_null(row.drift.max_abs)},
+         {"oscillation", finite_or_null(row.drift.oscillation)},
+         {"slope", finite_or_null(row.drift.slope)},
+         {"slope_error", finite_or_null(row.drift.slope_error)},
+         {"growth", finite_or_null(row.drift.growth)},
+         {"verdict", run.result.status == Status::ok ? to_string(row.drift.verdict) : "failed"}});
+  }
+}
+
+std::string Document::text() const { return json_.dump(1) + "\n"; }
+
+}  // namespace gnomon

@@ -1,0 +1,28 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "src/study/converge.hpp"
+#include "src/study/drift_study.hpp"
+#include "src/study/study.hpp"
+
+namespace gnomon {
+
+/// The document of a command: environment, scenes with their references, runs, orders. Numbers keep 17
+/// significant digits; what does not exist or is not finite is null.
+class Document {
+ public:
+  Document(const Catalogue& catalogue, const std::string& command);
+  void add(const SceneStudy& study);
+  void add_orders(const Convergence& study);
+  /// Adds "drifts", one a run and invariant.
+  void add_drifts(const DriftStudy& study);
+  nlohmann::ordered_json& json() { return json_; }
+  std::string text() const;
+
+ private:
+  nlohmann::ordered_json json_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,294 @@
+#include "src/study/present.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/environment.hpp"
+
+namespace gnomon {
+namespace {
+
+using output::Align;
+using output::Cell;
+using output::Table;
+
+/// The scheme's position in the catalogue, so that it looks the same in every figure.
+int style_of_scheme(const Catalogue& catalogue, const SchemeInfo& scheme) {
+  for (std::size_t k = 0; k < catalogue.schemes.size(); ++k)
+    if (catalogue.schemes[k].name == scheme.name) return static_cast<int>(k);
+  return 0;
+}
+
+Cell error_cell(const Row& row, std::size_t metric) {
+  if (metric >= row.error.size()) return {};
+  return row.below_bound[metric] ? output::at_most_cell(row.error[metric])
+                                 : output::number_cell(row.error[metric]);
+}
+
+std::string unit_of(const MetricInfo& metric) {
+  return metric.unit == "1" ? "relative" : std::string(metric.unit);
+}
+
+/// Series of one quantity against another over the rows of one scheme; what lies at the bound is hollow.
+template <class X>
+output::Series series(const Catalogue& catalogue, const SceneStudy& study, const SchemeInfo& scheme,
+                      X&& x_of) {
+  output::Series series;
+  series.label = std::string(scheme.name);
+  series.style = style_of_scheme(catalogue, scheme);
+  for (const Row& row : study.rows) {
+    if (row.scheme != &scheme || row.error.empty()) continue;
+    series.x.push_back(x_of(row));
+    series.y.push_back(row.error[0]);
+    series.hollow.push_back(row.below_bound[0]);
+  }
+  return series;
+}
+
+std::vector<const SchemeInfo*> schemes_of(const SceneStudy& study) {
+  std::vector<const SchemeInfo*> schemes;
+  for (const Row& row : study.rows)
+    if (std::find(schemes.begin(), schemes.end(), row.scheme) == schemes.end()) schemes.push_back(row.scheme);
+  return schemes;
+}
+
+void add_bound(output::Panel& panel, const SceneStudy& study) {
+  if (!study.reference.bounds.empty())
+    panel.reference_lines.push_back({study.reference.bounds.back()[0], "bound of the reference"});
+}
+
+std::string error_label(const SceneStudy& study) {
+  const MetricInfo metric = study.scene.model->metrics()[0];
+  return fmt::format("{} error at t = {:g} s [{}]", metric.name, study.scene.t_end, metric.unit);
+}
+
+}  // namespace
+
+std::string reference_line(const SceneStudy& study) {
+  const ReferenceStates& reference = study.reference;
+  if (reference.kind.empty())
+    return fmt::format("no reference{}", reference.message.empty() ? "" : ": " + reference.message);
+  std::string bounds;
+  const std::vector<MetricInfo> metrics = study.scene.model->metrics();
+  for (std::size_t k = 0; k < metrics.size(); ++k)
+    bounds += fmt::format("{}{} {}", k ? ", " : "", metrics[k].name,
+                          output::at_most(reference.bounds.back()[k], 2));
+  return fmt::format("reference: {} ({}), error bound: {}", reference.kind, reference.methods.front(),
+                     bounds);
+}
+
+Table runs_table(const SceneStudy& study, const std::string& caption) {
+  Table table;
+  table.caption = caption;
+  table.columns = {{"integrator", "integrator", Align::left}, {"step_s", "step [s]"}, {"tol", "tolerance"}};
+  for (const MetricInfo& metric : study.scene.model->metrics())
+    table.columns.push_back(
+        {fmt::format("{}_error_{}", metric.name, metric.unit == "1" ? "rel" : metric.unit),
+         fmt::format("{} error [{}]", metric.name, unit_of(metric))});
+  table.columns.insert(table.columns.end(), {{"steps", "steps"},
+                                             {"rhs", "rate evaluations"},
+                                             {"moments", "moment evaluations"},
+                                             {"cpu_median_s", "CPU time [s]"},
+                                             {"cpu_min_s", "least [s]"},
+                                             {"cpu_max_s", "most [s]"},
+                                             {"status", "status", Align::left},
+                                             {"t_s", "time reached [s]"}});
+  const std::size_t metrics = study.scene.model->metrics().size();
+  bool unstable = false;
+  for (const Row& row : study.rows) {
+    const RunResult& result = row.result;
+    std::vector<Cell> cells{std::string(row.scheme->name),
+                            result.step ? output::number_cell(*result.step, 4) : Cell{},
+                            row.setting.tol ? output::number_cell(*row.setting.tol, 2) : Cell{}};
+    for (std::size_t k = 0; k < metrics; ++k) cells.push_back(error_cell(row, k));
+    const bool closed = row.scheme->stepping == Stepping::closed_form;
+    cells.push_back(closed ? Cell{} : output::count_cell(result.cost.steps));
+    cells.push_back(output::count_cell(result.cost.rhs));
+    cells.push_back(output::count_cell(result.cost.moments));
+    if (row.timing) {
+      unstable = unstable || row.timing->unstable;
+      Cell median = output::engineering_cell(row.timing->median);
+      if (row.timing->unstable) median.text += "*";
+      cells.push_back(median);
+      cells.push_back(output::engineering_cell(row.timing->min));
+      cells.push_back(output::engineering_cell(row.timing->max));
+    } else {
+      cells.insert(cells.end(), 3, Cell{});
+    }
+    std::string status(to_string(result.status));
+    if (!result.message.empty()) status += ": " + result.message;
+    for (const std::string& flag : result.flags) status += "; " + flag;
+    cells.push_back(status);
+    cells.push_back(output::number_cell(result.t, 6));
+    table.rows.push_back(std::move(cells));
+  }
+  table.notes.push_back(reference_line(study));
+  if (unstable)
+    table.notes.push_back("* repetitions differ by more than 5 % (median deviation): read with care");
+  return table;
+}
+
+Table orders_table(const Convergence& study) {
+  Table table;
+  table.caption = fmt::format("Observed order, {}", study.scene.name);
+  table.columns = {{"integrator", "integrator", Align::left},
+                   {"metric", "error", Align::left},
+                   {"observed", "observed order"},
+                   {"low", "quartile"},
+                   {"high", "quartile"},
+                   {"expected", "declared"},
+                   {"points", "points"},
+                   {"verdict", "verdict", Align::left}};
+  for (const OrderRow& row : study.orders) {
+    const ObservedOrder& order = row.order;
+    const double none = std::nan("");
+    table.rows.push_back({std::string(row.scheme->name), row.metric,
+                          output::number_cell(order.observed.value_or(none), 3),
+                          output::number_cell(order.observed ? order.interval[0] : none, 3),
+                          output::number_cell(order.observed ? order.interval[1] : none, 3),
+                          output::number_cell(row.expected.value_or(none), 2),
+                          output::count_cell(order.points), order.verdict});
+  }
+  table.notes.push_back(reference_line(study));
+  return table;
+}
+
+Table costs_table(const Comparison& study) {
+  Table table;
+  const MetricInfo metric = study.scene.model->metrics()[0];
+  table.caption = fmt::format("CPU microseconds (rate evaluations) to reach an {} error [{}], {}",
+                              metric.name, metric.unit, study.scene.name);
+  table.columns = {{"integrator", "integrator", Align::left}};
+  for (double level : study.levels) {
+    table.columns.push_back({fmt::format("cpu_us_at_{:.0e}", level), fmt::format("{:.0e}", level)});
+    table.columns.push_back({fmt::format("rhs_at_{:.0e}", level), "(rates)"});
+  }
+  for (const CostRow& cost : study.costs) {
+    std::vector<Cell> cells{std::string(cost.scheme->name)};
+    for (std::size_t k = 0; k < study.levels.size(); ++k) {
+      cells.push_back(cost.seconds[k] ? output::number_cell(1e6 * *cost.seconds[k], 3) : Cell{});
+      cells.push_back(cost.evaluations[k] ? output::count_cell(std::llround(*cost.evaluations[k])) : Cell{});
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  table.notes.push_back(reference_line(study));
+  table.notes.push_back(
+      "a setting counts only if it and all tighter ones reach the level; between settings log-log");
+  return table;
+}
+
+Table drift_table(const DriftStudy& study) {
+  Table table;
+  table.caption =
+      fmt::format("Drift of the invariants, {} to t = {:g} s", study.scene.name, study.scene.t_end);
+  table.columns = {{"integrator", "integrator", Align::left},
+                   {"setting", "setting", Align::left},
+                   {"invariant", "invariant", Align::left},
+                   {"max_drift", "largest drift"},
+                   {"oscillation", "oscillation"},
+                   {"slope_per_s", "slope [1/s]"},
+                   {"slope_error_per_s", "its error [1/s]"},
+                   {"growth", "growth exponent"},
+                   {"verdict", "verdict", Align::left},
+                   {"error", fmt::format("{} error [{}]", study.scene.model->metrics()[0].name,
+                                         study.scene.model->metrics()[0].unit)},
+                   {"status", "status", Align::left}};
+  for (const DriftRow& row : study.drifts) {
+    const Row& run = study.rows[row.row];
+    const bool ok = run.result.status == Status::ok;
+    std::string status(to_string(run.result.status));
+    if (!run.result.message.empty()) status += ": " + run.result.message;
+    table.rows.push_back({std::string(run.scheme->name), run.setting.text(), row.invariant.info.name,
+                          output::number_cell(row.drift.max_abs), output::number_cell(row.drift.oscillation),
+                          output::number_cell(row.drift.slope), output::number_cell(row.drift.slope_error, 2),
+                          output::number_cell(row.drift.growth, 2),
+                          std::string(ok ? to_string(row.drift.verdict) : "failed"), error_cell(run, 0),
+                          status});
+  }
+  table.notes.push_back("drift relative to the invariant's scale, at jittered times");
+  table.notes.push_back(reference_line(study));
+  return table;
+}
+
+output::Figure convergence_figure(const Catalogue& catalogue, const Convergence& study) {
+  output::Figure figure;
+  figure.title = study.scene.name;
+  figure.hollow_note = "hollow: at or below the bound of the reference";
+  output::Panel steps{.title = "fixed step", .x_label = "step [s]", .y_label = error_label(study)};
+  output::Panel tols{.title = "adaptive", .x_label = "tolerance", .y_label = error_label(study)};
+  for (const SchemeInfo* scheme : schemes_of(study)) {
+    if (scheme->stepping == Stepping::fixed)
+      steps.series.push_back(
+          series(catalogue, study, *scheme, [](const Row& row) { return *row.result.step; }));
+    if (scheme->stepping == Stepping::adaptive)
+      tols.series.push_back(
+          series(catalogue, study, *scheme, [](const Row& row) { return *row.setting.tol; }));
+  }
+  std::vector<double> declared;
+  for (const OrderRow& row : study.orders)
+    if (row.expected && std::find(declared.begin(), declared.end(), *row.expected) == declared.end())
+      declared.push_back(*row.expected);
+  for (double order : declared) steps.guides.push_back({order, fmt::format("order {:g}", order)});
+  for (output::Panel* panel : {&steps, &tols}) {
+    if (panel->series.empty()) continue;
+    add_bound(*panel, study);
+    figure.panels.push_back(*panel);
+  }
+  return figure;
+}
+
+output::Figure work_precision_figure(const Catalogue& catalogue, const Comparison& study) {
+  output::Figure figure;
+  figure.title = study.scene.name;
+  figure.hollow_note = "hollow: at or below the bound of the reference";
+  output::Panel time{.title = "CPU time", .x_label = "CPU time [s]", .y_label = error_label(study)};
+  output::Panel rates{
+      .title = "evaluations", .x_label = "evaluations of the rates", .y_label = error_label(study)};
+  for (const SchemeInfo* scheme : schemes_of(study)) {
+    time.series.push_back(series(catalogue, study, *scheme, [](const Row& row) {
+      return row.timing ? row.timing->median : std::nan("");
+    }));
+    rates.series.push_back(series(catalogue, study, *scheme,
+                                  [](const Row& row) { return static_cast<double>(row.evaluations()); }));
+  }
+  add_bound(time, study);
+  add_bound(rates, study);
+  const bool timed =
+      std::any_of(study.rows.begin(), study.rows.end(), [](const Row& row) { return row.timing; });
+  if (timed) figure.panels.push_back(time);
+  figure.panels.push_back(rates);
+  return figure;
+}
+
+output::Figure drift_figure(const Catalogue& catalogue, const DriftStudy& study,
+                            const std::string& invariant) {
+  output::Figure figure;
+  figure.title = fmt::format("{}, {}", study.scene.name, invariant);
+  output::Panel panel{.title = "",
+                      .x_label = "time [s]",
+                      .y_label = fmt::format("|{} drift| / scale, running maximum", invariant)};
+  for (const DriftRow& row : study.drifts) {
+    if (row.invariant.info.name != invariant) continue;
+    const SchemeInfo& scheme = *study.rows[row.row].scheme;
+    output::Series series;
+    series.label = std::string(scheme.name);
+    series.style = style_of_scheme(catalogue, scheme);
+    // Twelve points a decade of the running maximum are enough to see growth.
+    double largest = 0.0, next = 0.0;
+    for (std::size_t k = 0; k < row.invariant.times.size(); ++k) {
+      largest = std::max(largest, std::abs(row.invariant.drift[k]));
+      const double t = row.invariant.times[k];
+      if (t <= 0.0 || (t < next && k + 1 < row.invariant.times.size())) continue;
+      series.x.push_back(t);
+      series.y.push_back(largest);
+      next = t * std::pow(10.0, 1.0 / 12.0);
+    }
+    panel.series.push_back(std::move(series));
+  }
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+}  // namespace gnomon

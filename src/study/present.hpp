@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "src/output/figure.hpp"
+#include "src/output/table.hpp"
+#include "src/study/compare.hpp"
+#include "src/study/converge.hpp"
+#include "src/study/drift_study.hpp"
+
+namespace gnomon {
+
+/// The reference's kind and bounds in one line.
+std::string reference_line(const SceneStudy& study);
+
+/// One row a run: setting, errors, evaluations, CPU time, status.
+output::Table runs_table(const SceneStudy& study, const std::string& caption);
+output::Table orders_table(const Convergence& study);
+output::Table costs_table(const Comparison& study);
+output::Table drift_table(const DriftStudy& study);
+
+/// Error against step, or against the tolerance in a second panel.
+output::Figure convergence_figure(const Catalogue& catalogue, const Convergence& study);
+/// Error against CPU time and against evaluations.
+output::Figure work_precision_figure(const Catalogue& catalogue, const Comparison& study);
+/// |drift| of one invariant against time.
+output::Figure drift_figure(const Catalogue& catalogue, const DriftStudy& study,
+                            const std::string& invariant);
+
+}  // namespace gnomon

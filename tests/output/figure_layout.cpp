@@ -1,0 +1,209 @@
+#include "src/output/figure_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "src/output/figure_curves.hpp"
+#include "src/output/figure_script.hpp"
+#include "src/output/text.hpp"
+#include "tests/catch.hpp"
+#include "tests/output/sample_figures.hpp"
+
+using namespace gnomon::output;
+using namespace gnomon::test;
+
+namespace {
+
+std::vector<Text> all_texts(const Drawing& drawing) {
+  std::vector<Text> texts = drawing.decoration.texts;
+  for (const DrawnPanel& panel : drawing.panels) {
+    texts.insert(texts.end(), panel.decoration.texts.begin(), panel.decoration.texts.end());
+  }
+  std::erase_if(texts, [](const Text& text) { return text.text.empty(); });
+  return texts;
+}
+
+Box box_of(const Text& text) {
+  const double width = text_width(text.text, text.size);
+  const double half = 0.5 * text.size;
+  if (text.upwards)
+    return {text.at.x - half, text.at.y - 0.5 * width, text.at.x + half, text.at.y + 0.5 * width};
+  const double left = text.at.x - (text.anchor == Anchor::centre ? 0.5 : 0.0) * width;
+  return {left, text.at.y - half, left + width, text.at.y + half};
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
+}
+
+void check_texts(const Drawing& drawing) {
+  const std::vector<Text> texts = all_texts(drawing);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    CAPTURE(texts[i].text);
+    const Box box = box_of(texts[i]);
+    CHECK(box.left >= 0.0);
+    CHECK(box.bottom >= 0.0);
+    CHECK(box.right <= drawing.width);
+    CHECK(box.top <= drawing.height);
+    CHECK(texts[i].size >= 11.0 * 96.0 / 72.0);  // eleven points
+    for (std::size_t j = 0; j < i; ++j) {
+      CAPTURE(texts[j].text);
+      CHECK_FALSE(overlap(box, box_of(texts[j])));
+    }
+  }
+}
+
+const Text& text_named(const Drawing& drawing, const std::string& name, const std::vector<Text>& texts) {
+  const auto found =
+      std::find_if(texts.begin(), texts.end(), [&](const Text& text) { return text.text == name; });
+  CAPTURE(name, drawing.width);
+  REQUIRE(found != texts.end());
+  return *found;
+}
+
+std::size_t times_named(const std::vector<Text>& texts, const std::string& name) {
+  return static_cast<std::size_t>(
+      std::count_if(texts.begin(), texts.end(), [&](const Text& text) { return text.text == name; }));
+}
+
+}  // namespace
+
+TEST_CASE("output: text in figures is large enough, inside and apart") {
+  check_texts(lay_out(work_precision()));
+  check_texts(lay_out(work_precision_in_two_panels()));
+  check_texts(lay_out(convergence()));
+  check_texts(lay_out(drift()));
+  Figure four = work_precision_in_two_panels();
+  four.panels.push_back(convergence().panels.front());
+  four.panels.push_back({});
+  for (Panel& panel : four.panels) panel.title = "panel title";
+  check_texts(lay_out(four));
+  Figure one = convergence();
+  one.panels.front().series.resize(1);
+  check_texts(lay_out(one));
+}
+
+TEST_CASE("output: curves that reach the right end are named beside the frame, in their colours") {
+  const Drawing drawing = lay_out(convergence());
+  const DrawnPanel& panel = drawing.panels.front();
+  const auto& texts = panel.decoration.texts;
+  for (const char* name : {"munjiza", "munjiza-half-impulse", "munjiza-stage-moments", "rkmk4"}) {
+    CHECK(text_named(drawing, name, texts).at.x > panel.frame.right);
+  }
+  CHECK(text_named(drawing, "munjiza", texts).colour == style_of(0).text_colour);
+  CHECK(text_named(drawing, "munjiza", texts).at.y > text_named(drawing, "rkmk4", texts).at.y);
+  CHECK(text_named(drawing, "order 4", texts).at.x < panel.frame.right);
+  CHECK(drawing.left_out.empty());
+}
+
+TEST_CASE("output: a few curves are named at their ends, many in a key") {
+  Figure figure = work_precision();
+  auto& series = figure.panels.front().series;
+  series = {series[1], series[3], series[5], series[8]};
+  const Drawing few = lay_out(figure);
+  for (const char* name : {"munjiza-half-impulse", "rkmk4", "cvode-bdf", "arkode-erk8"}) {
+    const Text& text = text_named(few, name, few.panels.front().decoration.texts);
+    CHECK(text.at.x < few.panels.front().frame.right);
+  }
+  CHECK(times_named(few.decoration.texts, "rkmk4") == 0);
+
+  const Drawing many = lay_out(work_precision());
+  for (const char* name : {"munjiza", "arkode-erk8", "exact-free-top"}) {
+    CHECK(text_named(many, name, many.decoration.texts).at.x > many.panels.front().frame.right);
+    CHECK(times_named(many.panels.front().decoration.texts, name) == 0);
+  }
+}
+
+TEST_CASE("output: panels share one key and, side by side, the y axis") {
+  const Drawing drawing = lay_out(work_precision_in_two_panels());
+  REQUIRE(drawing.panels.size() == 2);
+  CHECK(times_named(all_texts(drawing), "rkmk4") == 1);
+  CHECK(times_named(all_texts(drawing), "exact-free-top") == 1);
+  CHECK(text_named(drawing, "rkmk4", drawing.decoration.texts).at.y < drawing.panels[0].frame.bottom);
+  CHECK(drawing.panels[0].y.range.low == drawing.panels[1].y.range.low);
+  CHECK(drawing.panels[0].y.range.high == drawing.panels[1].y.range.high);
+  CHECK(drawing.panels[0].y_labels);
+  CHECK_FALSE(drawing.panels[1].y_labels);
+  CHECK(drawing.panels[0].frame.right < drawing.panels[1].frame.left);
+
+  Figure different = work_precision_in_two_panels();
+  different.panels[1].y_label = "momentum error";
+  CHECK(lay_out(different).panels[1].y_labels);
+}
+
+TEST_CASE("output: what cannot be drawn is left out and named") {
+  const double nan_value = std::numeric_limits<double>::quiet_NaN();
+  Figure figure = convergence();
+  Panel& panel = figure.panels.front();
+  panel.series.push_back({"empty", {}, {}, {}, 4});
+  panel.series.push_back({"zeros", {1.0, 2.0}, {0.0, -1.0}, {}, 5});
+  panel.series.push_back({"failed", {1.0, nan_value}, {nan_value, 1.0}, {}, 6});
+  panel.reference_lines.push_back({1e-28, "far below"});
+  const Drawing drawing = lay_out(figure);
+  CHECK(drawing.panels.front().curves.size() == 4);
+  REQUIRE(drawing.left_out.size() == 4);
+  CHECK(drawing.left_out[0] == "empty: no positive, finite values");
+  CHECK(drawing.left_out[1] == "zeros: no positive, finite values");
+  CHECK(drawing.left_out[2] == "failed: no positive, finite values");
+  CHECK(drawing.left_out[3] == "far below: 1e-28 is far from the data");
+  CHECK(drawing.panels.front().y.range.low > 1e-15);
+  CHECK(times_named(all_texts(drawing), "zeros") == 0);
+
+  panel.log_y = false;  // then zero and negative values have a place
+  CHECK(lay_out(figure).panels.front().curves.size() == 5);
+}
+
+TEST_CASE("output: values that cannot be drawn and neighbours at the bound break a line") {
+  Panel panel;
+  const double nan_value = std::numeric_limits<double>::quiet_NaN();
+  panel.series = {{"a", {1, 2, 3, 4, 5}, {1, 2, nan_value, 4, 5}, {}, 0},
+                  {"b", {1, 2, 3, 4}, {4, 3, 2, 2}, {false, false, true, true}, 1}};
+  std::vector<std::string> left_out;
+  const auto curves = curves_of(panel, left_out);
+  REQUIRE(curves.size() == 2);
+  REQUIRE(curves[0].pieces.size() == 2);
+  CHECK(curves[0].pieces[0].size() == 2);
+  CHECK(curves[0].pieces[1].size() == 2);
+  CHECK(curves[0].filled.size() == 4);
+  REQUIRE(curves[1].pieces.size() == 2);
+  CHECK(curves[1].pieces[0].size() == 3);
+  CHECK(curves[1].pieces[1].size() == 1);
+  CHECK(curves[1].filled.size() == 2);
+  CHECK(curves[1].hollow.size() == 2);
+}
+
+TEST_CASE("output: long curves have few markers, at different places") {
+  std::vector<std::string> left_out;
+  const auto curves = curves_of(drift().panels.front(), left_out);
+  REQUIRE(curves.size() == 7);
+  for (const Curve& curve : curves) {
+    CHECK(curve.filled.size() >= 8);
+    CHECK(curve.filled.size() <= 9);
+    CHECK(curve.pieces.front().size() == 200);
+    CHECK_FALSE(has_markers_everywhere(curve));
+  }
+  CHECK(curves[0].filled.front().x != curves[1].filled.front().x);
+}
+
+TEST_CASE("output: lengths that differ are refused") {
+  Figure figure = convergence();
+  figure.panels.front().series[1].y.pop_back();
+  CHECK_THROWS_AS(lay_out(figure), std::invalid_argument);
+  figure = convergence();
+  figure.panels.front().series[1].hollow.pop_back();
+  CHECK_THROWS_AS(lay_out(figure), std::invalid_argument);
+}
+
+TEST_CASE("output: labels cannot break out of the script") {
+  CHECK(quoted("it's") == "'it''s'");
+  CHECK(quoted("a\nsystem('x')") == "'a system(''x'')'");
+  Figure figure = convergence();
+  figure.panels.front().series[0].label = "'; system('false'); '\nexit 3";
+  const std::string script = gnuplot_script(lay_out(figure), "a.svg", "a.png");
+  CHECK(script.find("\nexit") == std::string::npos);
+  CHECK(script.find("'''; system(''false''); '' exit 3'") != std::string::npos);
+}
