@@ -1,6 +1,7 @@
 #include "models/catalogue.hpp"
 
 #include "models/rigid_body/read.hpp"
+#include "models/rigid_body/yardstick.hpp"
 
 namespace gnomon {
 
@@ -8,6 +9,8 @@ void add_models(Catalogue& catalogue) {
   const std::string root = std::string(GNOMON_SOURCE_DIR) + "/models/";
   catalogue.models.push_back(rigid_body::entry);
   catalogue.scene_folders.push_back(root + "rigid_body/scenes");
+  catalogue.study_files.push_back(root + "rigid_body/study.toml");
+  catalogue.yardsticks.push_back(rigid_body::plain_cvode_yardstick);
   add_model_types(catalogue, Models{});
 }
 

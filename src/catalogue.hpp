@@ -48,6 +48,18 @@ struct Library {
   std::string build;              ///< its build record, may be empty
 };
 
+/// An integration written without gnomon that one of its integrators is held against, on the same scene and tolerance.
+struct Yardstick {
+  std::string_view name;
+  std::string_view summary;
+  std::string_view scene;
+  std::string_view integrator;
+  double tol;
+  /// Integrates the scene's model to t_end; returns thread CPU seconds (negative on failure), flattened final state and
+  /// number of evaluations.
+  double (*run)(const void* model, double t_end, double tol, std::vector<double>& state, long& evaluations);
+};
+
 template <class... T>
 struct TypeList {};
 
@@ -58,6 +70,8 @@ struct Catalogue {
   std::vector<std::string> scene_folders;  ///< of the shipped scenes
   std::vector<Pair> pairs;
   std::vector<Library> libraries;
+  std::vector<Yardstick> yardsticks;
+  std::vector<std::string> study_files;  ///< what `bench` does with each model
   /// Number of model types of a model, to tell whether a scheme runs all of them.
   int variants(std::string_view model) const;
 

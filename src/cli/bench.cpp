@@ -1,4 +1,227 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <functional>
+#include <iostream>
+
 #include "src/cli/command.hpp"
+#include "src/cli/files.hpp"
+#include "src/environment.hpp"
+#include "src/output/files.hpp"
+#include "src/study/compare.hpp"
+#include "src/study/present.hpp"
+#include "src/study/published.hpp"
+#include "src/study/speed.hpp"
+
 namespace gnomon::cli {
-int bench(Context&) { return done; }
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A part of the study: it writes files of its own and is skipped when an earlier call with the same program and plan
+/// has finished it.
+struct Part {
+  std::string name;     ///< also the stem of its files
+  std::string heading;  ///< in the index
+  std::size_t runs;
+  std::function<bool(output::Progress&)> make;  ///< false: interrupted, nothing written
+};
+
+class Study {
+ public:
+  Study(Context& context)
+      : context_(context),
+        request_(context.request),
+        references_(reference_folder()),
+        runner_(context.catalogue, references_, context.stop) {
+    const std::string results = std::string(GNOMON_SOURCE_DIR) + "/results";
+    published_ = request_.out.empty() && !request_.quick;
+    folder_ = !request_.out.empty() ? request_.out : request_.quick ? results + "/quick" : results;
+    for (const std::string& file : context.catalogue.study_files) plan(read_study(file), file);
+  }
+
+  int run() {
+    const std::string program = hash_text(output::read_file("/proc/self/exe"));
+    std::vector<const Part*> open;
+    std::size_t runs = 0, known = 0;
+    for (const Part& part : parts_) {
+      if (!request_.fresh && finished(part, program)) {
+        ++known;
+        continue;
+      }
+      open.push_back(&part);
+      runs += part.runs;
+    }
+    if (known > 0)
+      std::cerr << fmt::format("gnomon: {} of {} parts are there from an earlier call (--fresh makes them again)\n",
+                               known, parts_.size());
+    output::Progress progress(runs, output::progress_mode(request_.quiet), std::cerr);
+    for (const Part* part : open) {
+      if (context_.stop.load() || !part->make(progress)) {
+        progress.finish();
+        std::cerr << "gnomon: interrupted; the finished parts are kept and the next call goes on from them\n";
+        return interrupted;
+      }
+      output::write_file_atomically(stamp(*part), program);
+    }
+    progress.finish();
+    write_index();
+    if (published_) update_readme();
+    return done;
+  }
+
+ private:
+  void plan(const StudyPlan& study, const std::string& file) {
+    const std::string model = fs::path(file).parent_path().filename().string();
+    const auto scenes = [&](const std::vector<std::string>& names) {
+      std::vector<Scene> list;
+      for (const std::string& name : names) list.push_back(load_scene(context_.catalogue, name));
+      return list;
+    };
+    StudyOptions options;
+    options.quick = request_.quick;
+
+    const std::vector<Scene> converging = scenes(study.converge);
+    std::size_t runs = 0;
+    StudyOptions fixed = options;
+    for (const Scene& scene : converging) runs += converge_runs(context_.catalogue, scene, fixed);
+    parts_.push_back({model + "-orders", "Order of convergence", runs,
+                      [=, this](output::Progress& progress) { return make_orders(model, converging, fixed, progress); }});
+    for (const Scene& scene : scenes(request_.quick ? study.quick_compare : study.compare))
+      parts_.push_back({"compare-" + scene.name, "Work and precision: " + scene.name,
+                        compare_runs(context_.catalogue, scene, options),
+                        [=, this](output::Progress& progress) { return make_comparison(scene, options, progress); }});
+    for (const DriftPlan& plan : study.drift) {
+      if (request_.quick && !plan.quick_t_end) continue;
+      parts_.push_back({"drift-" + plan.scene, "Drift: " + plan.scene, plan.integrators.size(),
+                        [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
+    }
+    parts_.push_back({model + "-speed", "Speed", 1,
+                      [=, this](output::Progress& progress) { return make_speed(model, study.speed, progress); }});
+  }
+
+  bool make_orders(const std::string& model, const std::vector<Scene>& scenes, const StudyOptions& options,
+                   output::Progress& progress) {
+    Document document(context_.catalogue, "bench");
+    std::vector<Convergence> studies;
+    for (const Scene& scene : scenes) {
+      studies.push_back(converge(runner_, scene, options, progress));
+      if (studies.back().interrupted) return false;
+      document.add(studies.back());
+      document.add_orders(studies.back());
+      Document own(context_.catalogue, "bench");
+      own.add(studies.back());
+      own.add_orders(studies.back());
+      write_study(folder_, "converge-" + scene.name, {orders_table(studies.back()), runs_table(studies.back(), "Runs")},
+                  own, convergence_figure(context_.catalogue, studies.back()), command("converge " + scene.name));
+    }
+    write_study(folder_, model + "-orders", {order_matrix(studies)}, document, std::nullopt, "");
+    return true;
+  }
+
+  bool make_comparison(const Scene& scene, const StudyOptions& options, output::Progress& progress) {
+    const Comparison study = compare(runner_, scene, options, progress);
+    if (study.interrupted) return false;
+    Document document(context_.catalogue, "bench");
+    document.add(study);
+    output::Table costs = costs_table(study);
+    costs.notes.push_back(sundials_line(context_.catalogue));
+    write_study(folder_, "compare-" + scene.name, {costs, runs_table(study, "Runs")}, document,
+                work_precision_figure(context_.catalogue, study), command("compare " + scene.name));
+    return true;
+  }
+
+  bool make_drift(const DriftPlan& plan, output::Progress& progress) {
+    SceneChanges changes;
+    changes.t_end = request_.quick ? *plan.quick_t_end : plan.t_end;
+    StudyOptions options;
+    options.integrators = plan.integrators;
+    options.steps = {plan.step};
+    options.tols = {plan.tol};
+    const DriftStudy study = drift(runner_, load_scene(context_.catalogue, plan.scene, changes), options, progress);
+    if (study.interrupted) return false;
+    Document document(context_.catalogue, "bench");
+    document.add(study);
+    document.add_drifts(study);
+    write_study(folder_, "drift-" + plan.scene, {drift_table(study)}, document,
+                drift_figure(context_.catalogue, study, "energy"),
+                command(fmt::format("drift {} --step {:g} --tols {:g} --t-end {:g}", plan.scene, plan.step, plan.tol,
+                                    *changes.t_end)));
+    return true;
+  }
+
+  bool make_speed(const std::string& model, const std::vector<SpeedPlan>& plans, output::Progress& progress) {
+    progress.begin("speed of a step and of the wrapper, interleaved");
+    const SpeedStudy study = measure_speed(runner_, plans);
+    if (runner_.stopped()) return false;
+    Document document(context_.catalogue, "bench");
+    document.json()["speed"] = speed_json(study);
+    output::Table wrapper = wrapper_table(study);
+    wrapper.notes.push_back(sundials_line(context_.catalogue));
+    write_study(folder_, model + "-speed", {step_times_table(study), wrapper}, document, std::nullopt, "");
+    return true;
+  }
+
+  static std::string command(const std::string& arguments) { return fmt::format("`./gnomon {}`\n\n", arguments); }
+
+  std::string stamp(const Part& part) const {
+    return fmt::format("{}/bench/{}/{}", GNOMON_BINARY_DIR, hash_text(fs::absolute(folder_).string()),
+                       part.name + (request_.quick ? "-quick" : ""));
+  }
+  bool finished(const Part& part, const std::string& program) const {
+    try {
+      return fs::exists(fmt::format("{}/{}.md", folder_, part.name)) && output::read_file(stamp(part)) == program;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }
+
+  void write_index() const {
+    const nlohmann::ordered_json machine = environment(context_.catalogue);
+    std::string text = "# Results\n\nWritten by `./gnomon bench";
+    text += request_.quick ? " --quick`.\n\n" : "`.\n\n";
+    for (const auto& [key, value] : machine.items())
+      text += fmt::format("- {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+    for (const Part& part : parts_) {
+      text += fmt::format("\n## {}\n\n", part.heading);
+      const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
+      // The table of runs is in the part's own page.
+      text += content.substr(0, content.find("**Runs**"));
+      text += fmt::format("\nAll of it: [{0}.md]({0}.md), [{0}.csv]({0}.csv), [{0}.json]({0}.json)\n", part.name);
+    }
+    output::write_file_atomically(folder_ + "/README.md", text);
+    for (const Part& part : parts_)
+      if (part.name.ends_with("-orders") || part.name.ends_with("-speed"))
+        say(request_, output::read_file(fmt::format("{}/{}.md", folder_, part.name)));
+    say(request_, fmt::format("wrote {} parts to {}; start with {}/README.md", parts_.size(), folder_, folder_));
+  }
+
+  void update_readme() const {
+    const std::string path = std::string(GNOMON_SOURCE_DIR) + "/README.md";
+    std::string text = output::read_file(path);
+    for (const Part& part : parts_) {
+      const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
+      std::string shown = content.substr(0, content.find("**Runs**"));
+      if (const std::size_t table = shown.find("**"); table != std::string::npos) shown = shown.substr(table);
+      text = replace_section(text, part.name, shown);
+    }
+    output::write_file_atomically(path, text);
+  }
+
+  Context& context_;
+  const Request& request_;
+  ReferenceStore references_;
+  Runner runner_;
+  bool published_ = false;
+  std::string folder_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace
+
+int bench(Context& context) {
+  Study study(context);
+  return study.run();
+}
+
 }  // namespace gnomon::cli

@@ -33,7 +33,6 @@ void check_lengths(const Series& series) {
 /// style to style so that markers of curves that lie on each other do not.
 std::vector<std::size_t> marked_points(const Series& series, const Panel& panel,
                                        const std::vector<std::size_t>& drawn) {
-  if (drawn.size() <= most_points_with_markers) return drawn;
   const auto along = [&](std::size_t i) { return panel.log_x ? std::log10(series.x[i]) : series.x[i]; };
   const auto [low, high] = std::minmax_element(
       drawn.begin(), drawn.end(), [&](std::size_t a, std::size_t b) { return along(a) < along(b); });
@@ -73,8 +72,11 @@ Curve curve_of(const Series& series, const Panel& panel) {
     curve.pieces.back().push_back({series.x[i], series.y[i]});
     drawn.push_back(i);
   }
-  if (drawn.size() > most_points_with_markers) curve.line_width = 1.3;
-  for (const std::size_t i : marked_points(series, panel, drawn)) {
+  if (drawn.size() > most_points_with_markers) {
+    curve.line_width = 1.3;
+    drawn = marked_points(series, panel, drawn);
+  }
+  for (const std::size_t i : drawn) {
     (is_hollow(series, i) ? curve.hollow : curve.filled).push_back({series.x[i], series.y[i]});
   }
   return curve;

@@ -80,7 +80,7 @@ TEST_CASE("output: a figure is written as SVG with its text and curves") {
     CHECK(contains(svg, ">" + series.label + "</text>"));
   }
   CHECK(contains(svg, "CPU time [µs]</text>"));
-  CHECK(contains(svg, "reference’s error bound</text>"));
+  CHECK(contains(svg, ">reference’s error bound</text>"));
   CHECK(contains(svg, "<title>Error against CPU time</title>"));
   CHECK(contains(svg, "width=\"900\" height=\"600\""));
   // The curve of each scheme: a path in its colour within its group, which is named after it.

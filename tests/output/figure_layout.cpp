@@ -57,7 +57,7 @@ void check_texts(const Drawing& drawing) {
   }
 }
 
-const Text& text_named(const Drawing& drawing, const std::string& name, const std::vector<Text>& texts) {
+Text text_named(const Drawing& drawing, const std::string& name, const std::vector<Text>& texts) {
   const auto found =
       std::find_if(texts.begin(), texts.end(), [&](const Text& text) { return text.text == name; });
   CAPTURE(name, drawing.width);
@@ -106,7 +106,7 @@ TEST_CASE("output: a few curves are named at their ends, many in a key") {
   series = {series[1], series[3], series[5], series[8]};
   const Drawing few = lay_out(figure);
   for (const char* name : {"munjiza-half-impulse", "rkmk4", "cvode-bdf", "arkode-erk8"}) {
-    const Text& text = text_named(few, name, few.panels.front().decoration.texts);
+    const Text text = text_named(few, name, few.panels.front().decoration.texts);
     CHECK(text.at.x < few.panels.front().frame.right);
   }
   CHECK(times_named(few.decoration.texts, "rkmk4") == 0);

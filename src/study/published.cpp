@@ -1,0 +1,47 @@
+#include "src/study/published.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gnomon {
+
+output::Table order_matrix(const std::vector<Convergence>& studies) {
+  output::Table table;
+  table.caption = "Observed order of the orientation error";
+  table.columns = {{"scene", "scene", output::Align::left}, {"load", "load", output::Align::left}};
+  std::vector<const SchemeInfo*> schemes;
+  for (const Convergence& study : studies)
+    for (const OrderRow& row : study.orders)
+      if (std::find(schemes.begin(), schemes.end(), row.scheme) == schemes.end()) schemes.push_back(row.scheme);
+  for (const SchemeInfo* scheme : schemes)
+    table.columns.push_back({std::string(scheme->name), std::string(scheme->name)});
+  for (const Convergence& study : studies) {
+    std::vector<output::Cell> cells{study.scene.name, std::string(study.scene.model->load_class())};
+    for (const SchemeInfo* scheme : schemes) {
+      const auto row = std::find_if(study.orders.begin(), study.orders.end(),
+                                    [&](const OrderRow& each) { return each.scheme == scheme; });
+      if (row == study.orders.end() || !row->order.observed) {
+        cells.emplace_back();
+        continue;
+      }
+      output::Cell cell = output::number_cell(*row->order.observed, 3);
+      if (row->expected && std::abs(*row->order.observed - *row->expected) > 0.1)
+        cell.text += fmt::format(" ({:g})", *row->expected);
+      cells.push_back(cell);
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  table.notes.push_back("windowed robust slope; — no asymptotic range; in brackets the declared order where it differs");
+  return table;
+}
+
+std::string replace_section(const std::string& document, const std::string& name, const std::string& text) {
+  const std::string begin = fmt::format("<!-- begin {} -->", name), end = fmt::format("<!-- end {} -->", name);
+  const std::size_t from = document.find(begin), to = document.find(end);
+  if (from == std::string::npos || to == std::string::npos || to < from) return document;
+  return document.substr(0, from + begin.size()) + "\n" + text + document.substr(to);
+}
+
+}  // namespace gnomon

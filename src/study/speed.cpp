@@ -1,0 +1,136 @@
+#include "src/study/speed.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+// Long enough for a step's share of the start to vanish, short enough to stay in the cache's and clock's quiet.
+constexpr long steps_a_run = 100'000;
+
+WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
+  const Scene scene = load_scene(runner.catalogue(), std::string(yardstick.scene));
+  const auto run = runner.catalogue().pair(yardstick.integrator, *scene.model)->run;
+  const void* model = scene.model->get();
+  RunSpec spec;
+  spec.t_end = scene.t_end;
+  spec.tol = yardstick.tol;
+  spec.record = false;
+
+  WrapperTime time{&yardstick, 0, 0, 0.0, {}, {}};
+  const RunResult wrapped = run(model, spec);
+  std::vector<double> plain;
+  yardstick.run(model, spec.t_end, yardstick.tol, plain, time.plain_evaluations);
+  time.evaluations = wrapped.cost.rhs;
+  for (std::size_t k = 0; k < plain.size(); ++k)
+    time.difference = std::max(time.difference, std::abs(plain[k] - wrapped.state[k]));
+
+  const std::vector<TimedTask> tasks{
+      {[&] { return run(model, spec).cpu_seconds; }},
+      {[&] {
+        std::vector<double> state;
+        long evaluations = 0;
+        return yardstick.run(model, spec.t_end, yardstick.tol, state, evaluations);
+      }}};
+  TimingPlan plan;
+  plan.repetitions = 11;
+  plan.timer_cost = timer_cost();
+  const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
+  time.wrapped = stats[0];
+  time.plain = stats[1];
+  return time;
+}
+
+std::string unstable_mark(const TimingStats& stats) { return stats.unstable ? "*" : ""; }
+
+}  // namespace
+
+SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
+  SpeedStudy study;
+  std::vector<Scene> scenes;
+  std::vector<TimedTask> tasks;
+  for (const SpeedPlan& plan : plans) {
+    SceneChanges changes;
+    changes.t_end = plan.step * static_cast<double>(steps_a_run);
+    scenes.push_back(load_scene(runner.catalogue(), plan.scene, changes));
+    for (const SchemeInfo* scheme : runner.catalogue().schemes_for(*scenes.back().model)) {
+      if (scheme->stepping != Stepping::fixed) continue;
+      RunSpec spec;
+      spec.t_end = scenes.back().t_end;
+      spec.step = plan.step;
+      spec.record = false;
+      const auto run = runner.catalogue().pair(scheme->name, *scenes.back().model)->run;
+      const std::shared_ptr<const AnyModel> model = scenes.back().model;
+      tasks.push_back({[=] { return run(model->get(), spec).cpu_seconds; }});
+      study.steps.push_back({plan.scene, std::string(model->load_class()), scheme, plan.step, steps_a_run, {}});
+    }
+  }
+  TimingPlan plan;
+  plan.repetitions = 7;
+  plan.timer_cost = timer_cost();
+  const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
+  for (std::size_t k = 0; k < stats.size(); ++k) study.steps[k].run = stats[k];
+  for (const Yardstick& yardstick : runner.catalogue().yardsticks) study.wrappers.push_back(measure(runner, yardstick));
+  return study;
+}
+
+output::Table step_times_table(const SpeedStudy& study) {
+  output::Table table;
+  table.caption = "Time of one step, one body, one core";
+  table.columns = {{"integrator", "integrator", output::Align::left},
+                   {"scene", "scene", output::Align::left},
+                   {"load", "load", output::Align::left},
+                   {"ns_median", "median [ns]"},
+                   {"ns_min", "least [ns]"},
+                   {"ns_max", "most [ns]"},
+                   {"repetitions", "repetitions"}};
+  for (const StepTime& time : study.steps) {
+    const double scale = 1e9 / static_cast<double>(time.steps);
+    output::Cell median = output::number_cell(time.ns());
+    median.text += unstable_mark(time.run);
+    table.rows.push_back({std::string(time.scheme->name), time.scene, time.load, median,
+                          output::number_cell(scale * time.run.min), output::number_cell(scale * time.run.max),
+                          output::count_cell(time.run.repetitions)});
+  }
+  table.notes.push_back(fmt::format("runs of {} steps, interleaved; * repetitions differ by more than 5 %", steps_a_run));
+  return table;
+}
+
+output::Table wrapper_table(const SpeedStudy& study) {
+  output::Table table;
+  table.caption = "Cost of the wrapper: gnomon's run against the same integration in plain C";
+  table.columns = {{"integrator", "integrator", output::Align::left},
+                   {"scene", "scene", output::Align::left},
+                   {"tol", "tolerance"},
+                   {"wrapped_us", "gnomon [us]"},
+                   {"plain_us", "plain C [us]"},
+                   {"ratio", "ratio"},
+                   {"evaluations", "evaluations"},
+                   {"plain_evaluations", "in plain C"},
+                   {"difference", "difference of the results"}};
+  for (const WrapperTime& time : study.wrappers)
+    table.rows.push_back({std::string(time.yardstick->integrator), std::string(time.yardstick->scene),
+                          output::number_cell(time.yardstick->tol, 1), output::number_cell(1e6 * time.wrapped.median, 4),
+                          output::number_cell(1e6 * time.plain.median, 4), output::number_cell(time.ratio(), 3),
+                          output::count_cell(time.evaluations), output::count_cell(time.plain_evaluations),
+                          output::number_cell(time.difference, 2)});
+  table.notes.push_back("medians of 11 interleaved repetitions; the ratio is that of the medians");
+  return table;
+}
+
+nlohmann::ordered_json speed_json(const SpeedStudy& study) {
+  nlohmann::ordered_json json;
+  for (const StepTime& time : study.steps)
+    json["steps"].push_back({{"integrator", time.scheme->name}, {"scene", time.scene}, {"step", time.step},
+                             {"ns_median", time.ns()}, {"repetitions", time.run.repetitions},
+                             {"unstable", time.run.unstable}});
+  for (const WrapperTime& time : study.wrappers)
+    json["wrappers"].push_back({{"integrator", time.yardstick->integrator}, {"scene", time.yardstick->scene},
+                                {"ratio", time.ratio()}, {"evaluations", time.evaluations},
+                                {"plain_evaluations", time.plain_evaluations}, {"difference", time.difference}});
+  return json;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "src/measure/timing.hpp"
+#include "src/output/table.hpp"
+#include "src/study/study.hpp"
+#include "src/study/study_file.hpp"
+
+namespace gnomon {
+
+/// Time of one step of one scheme.
+struct StepTime {
+  std::string scene;
+  std::string load;
+  const SchemeInfo* scheme;
+  double step;        ///< s
+  long steps;         ///< a run
+  TimingStats run;    ///< of the whole run, s
+  double ns() const { return 1e9 * run.median / static_cast<double>(steps); }
+};
+
+/// An integrator of gnomon against the same integration written without it.
+struct WrapperTime {
+  const Yardstick* yardstick;
+  long evaluations;         ///< of gnomon's run
+  long plain_evaluations;
+  double difference;        ///< largest difference of the two final states, 0 where they are bitwise equal
+  TimingStats wrapped, plain;
+  double ratio() const { return wrapped.median / plain.median; }
+};
+
+struct SpeedStudy {
+  std::vector<StepTime> steps;
+  std::vector<WrapperTime> wrappers;
+};
+
+SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans);
+
+output::Table step_times_table(const SpeedStudy& study);
+output::Table wrapper_table(const SpeedStudy& study);
+nlohmann::ordered_json speed_json(const SpeedStudy& study);
+
+}  // namespace gnomon

@@ -1,0 +1,32 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+struct DriftPlan {
+  std::string scene;
+  double t_end;
+  std::optional<double> quick_t_end;  ///< none: not part of a quick study
+  double step;
+  double tol;
+  std::vector<std::string> integrators;
+};
+
+struct SpeedPlan {
+  std::string scene;
+  double step;
+};
+
+/// What `bench` does with one model, read from its study.toml.
+struct StudyPlan {
+  std::vector<std::string> converge, compare, quick_compare;
+  std::vector<DriftPlan> drift;
+  std::vector<SpeedPlan> speed;
+};
+
+/// Throws UsageError if the file does not fit.
+StudyPlan read_study(const std::string& path);
+
+}  // namespace gnomon
