@@ -99,8 +99,9 @@ std::string sundials_line(const Catalogue& catalogue) {
   if (!library) return "no SUNDIALS";
   return fmt::format("SUNDIALS {} ({})", library->version,
                      library->optimised.value_or(false)
-                         ? "optimised: " + library->build
-                         : "packaged, compiled without optimisation: its times are 2 to 4 times too long");
+                         ? "compiled with optimisation: " + library->build
+                         : "no record of an optimised build; packaged libraries are compiled without, and take 2 to 4 "
+                           "times as long");
 }
 
 std::vector<Finding> examine(const Catalogue& catalogue) {

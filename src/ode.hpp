@@ -93,7 +93,7 @@ concept HasIndex2Dae = Model<M> && requires(const M& model) {
 
 namespace detail {
 
-/// The part of the erasure that ODE and DAE forms share.
+/// The part of the erasure that ODE and DAE forms share. The model has to outlive it.
 template <class Base, Model M, class F>
 class Erased : public Base {
  public:
@@ -111,7 +111,7 @@ class Erased : public Base {
   std::vector<double> model_state(const double* y) const final { return model_.flatten(form_.unpack(y)); }
 
  protected:
-  M model_;
+  const M& model_;
   F form_;
   int count_ = 0;
 };

@@ -1,62 +1,121 @@
 #include "src/scene.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
+#include "src/output/text.hpp"
 #include "src/scene_reader.hpp"
 
 namespace gnomon {
 namespace {
 
+/// What stands on one line (from 1) of a text, fit for a message.
+std::string line_of(const std::string& text, std::size_t number) {
+  std::stringstream stream(text);
+  std::string line;
+  for (std::size_t k = 0; k < number; ++k)
+    if (!std::getline(stream, line)) line.clear();
+  line = output::plain_text(line);
+  const std::size_t begin = line.find_first_not_of(' ');
+  if (begin == std::string::npos) return number > 1 ? "nothing more" : "nothing";
+  line = line.substr(begin, line.find_last_not_of(' ') + 1 - begin);
+  return fmt::format("'{}'",
+                     output::display_columns(line) > 60 ? output::first_columns(line, 57) + "..." : line);
+}
+
 toml::table parse_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  const auto refuse = [&](std::string_view found) {
+    throw UsageError(fmt::format("{}: found {}, expected a scene file", path, found));
+  };
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (!fs::exists(status)) refuse("no such file");
+  if (fs::is_directory(status)) refuse("a folder");
   std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  if (!in || std::filesystem::is_directory(path) || !(text << in.rdbuf()))
-    throw UsageError(fmt::format("{}: cannot be read, expected a scene file", path));
+  if (!in) refuse("a file that cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
   try {
-    return toml::parse(text.str(), path);
+    return toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    throw UsageError(
-        fmt::format("{}:{}: not valid TOML: {}", path, error.source().begin.line, error.description()));
+    const std::size_t line = error.source().begin.line;
+    throw UsageError(fmt::format("{}:{}: found {}, expected valid TOML ({})", path, line, line_of(text, line),
+                                 error.description()));
   }
 }
 
-/// Writes one `--set key.path=value` into the tree.
-void apply_override(toml::table& root, const std::string& option, SceneSource& source) {
-  const std::size_t equals = option.find('=');
-  const std::string label = fmt::format("--set {}", option);
-  if (equals == std::string::npos || equals == 0)
-    throw UsageError(fmt::format("{}: found '{}', expected key.path=value", label, option));
-  const std::string path = option.substr(0, equals), value = option.substr(equals + 1);
+/// The value of a `--set` option in TOML.
+toml::table parse_value(const std::string& label, const std::string& value) {
+  const auto refuse = [&] {
+    throw UsageError(fmt::format(
+        "{}: found '{}', expected a TOML value: a number, a \"text\" in double quotes, a [list] or true",
+        label, value));
+  };
+  if (value.find_first_of("\r\n") != std::string::npos) refuse();
   toml::table parsed;
   try {
     parsed = toml::parse("x = " + value);
   } catch (const toml::parse_error&) {
-    throw UsageError(fmt::format("{}: found '{}', expected a TOML value (a number, \"text\", [list] or true)",
-                                 label, value));
+    refuse();
   }
-  toml::table* table = &root;
-  std::stringstream stream(path);
+  return parsed;
+}
+
+/// Writes one `--set key.path=value` into the tree.
+void apply_override(toml::table& root, const std::string& option, SceneSource& source) {
+  const std::string label = fmt::format("--set {}", option);
+  const std::size_t equals = option.find('=');
+  if (equals == std::string::npos)
+    throw UsageError(fmt::format("{}: found no '=', expected key.path=value", label));
+  const std::string path = option.substr(0, equals);
   std::vector<std::string> keys;
+  std::stringstream stream(path);
   for (std::string key; std::getline(stream, key, '.');) keys.push_back(key);
   if (keys.empty() || path.back() == '.' || std::find(keys.begin(), keys.end(), "") != keys.end())
-    throw UsageError(fmt::format("{}: found '{}', expected key.path=value", label, path));
+    throw UsageError(fmt::format("{}: found '{}' as the key, expected key.path=value", label, path));
+  const toml::table parsed = parse_value(label, option.substr(equals + 1));
+  toml::table* table = &root;
   for (std::size_t k = 0; k + 1 < keys.size(); ++k) {
     toml::node* node = table->get(keys[k]);
     if (!node) node = &table->insert(keys[k], toml::table{}).first->second;
     if (!node->is_table())
-      throw UsageError(fmt::format("{}: '{}' is not a table of the scene", label, keys[k]));
+      throw UsageError(fmt::format(
+          "{}: found '{}', which is not a table of the scene, expected key.path=value", label, keys[k]));
     table = node->as_table();
   }
-  const toml::node& node = *parsed.get("x");
-  node.visit([&](const auto& typed) { table->insert_or_assign(keys.back(), typed); });
+  parsed.get("x")->visit([&](const auto& typed) { table->insert_or_assign(keys.back(), typed); });
+  std::erase_if(source.overrides, [&](const auto& earlier) { return earlier.first.starts_with(path + "."); });
   source.overrides[path] = label;
+}
+
+/// Names become names of files and parts of tables.
+bool is_plain_name(std::string_view name) {
+  return name.size() <= 100 && name.front() != '.' && name.front() != '-' &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                  c == '_' || c == '.';
+         });
+}
+
+/// The path of a scene: itself, or that of the shipped scene of that name.
+std::string find_scene(const Catalogue& catalogue, const std::string& name_or_path) {
+  if (name_or_path.ends_with(".toml")) return name_or_path;
+  std::vector<std::string> names;
+  for (const ShippedScene& scene : shipped_scenes(catalogue)) {
+    if (scene.name == name_or_path) return scene.path;
+    names.push_back(scene.name);
+  }
+  const std::string near = nearest(name_or_path, names);
+  throw UsageError(
+      fmt::format("scene '{}': found no shipped scene of that name, expected {} or a path that "
+                  "ends in .toml",
+                  name_or_path, near.empty() ? choices_text(names) : near));
 }
 
 }  // namespace
@@ -87,34 +146,23 @@ std::vector<ShippedScene> shipped_scenes(const Catalogue& catalogue) {
 }
 
 Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, const SceneChanges& changes) {
-  SceneSource source{name_or_path, {}};
-  std::string path = name_or_path;
-  if (!path.ends_with(".toml")) {
-    const std::vector<ShippedScene> shipped = shipped_scenes(catalogue);
-    const auto found = std::find_if(shipped.begin(), shipped.end(),
-                                    [&](const auto& scene) { return scene.name == name_or_path; });
-    if (found == shipped.end()) {
-      std::vector<std::string> names;
-      for (const ShippedScene& scene : shipped) names.push_back(scene.name);
-      const std::string near = nearest(name_or_path, names);
-      throw UsageError(
-          fmt::format("scene '{}': no shipped scene of that name, expected {} or a path that ends in .toml",
-                      name_or_path, near.empty() ? fmt::format("{}", fmt::join(names, ", ")) : near));
-    }
-    path = found->path;
-    source.file = std::filesystem::path(path).filename().string();
-  }
+  const std::string path = find_scene(catalogue, name_or_path);
+  SceneSource source{path, {}};
+  if (path != name_or_path) source.file = std::filesystem::path(path).filename().string();
 
   toml::table table = parse_file(path);
   for (const std::string& option : changes.set) apply_override(table, option, source);
 
   Section root(table, "", source);
+  root.refuse_misspelt({"name", "description", "model", "t_end"});
   Scene scene;
-  scene.name = root.text("name", "a name in quotes");
-  if (root.has("description"))
-    scene.description = root.text("description", "a text in quotes");
-  else
-    root.numbers_or("description", {}, "");
+  const char* name =
+      "a name in quotes: at most 100 letters, digits, - _ and . that begin with a letter or digit";
+  scene.name = root.text("name", name);
+  if (!is_plain_name(scene.name)) root.fail("name", root.shown("name"), name);
+  scene.description = root.text_or("description", "", "a text in quotes on one line");
+  if (output::plain_text(scene.description) != scene.description)
+    root.fail("description", root.shown("description"), "a text in quotes on one line");
   std::vector<std::string> models;
   for (const ModelEntry& entry : catalogue.models) models.emplace_back(entry.name);
   scene.model_name = root.one_of("model", models);
@@ -126,6 +174,14 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
   ParsedModel parsed = entry->read(root, scene.t_end);
   root.finish();
   scene.model = parsed.model;
+  // More steps than this no scheme can take, and they could not be counted exactly.
+  if (const double span = scene.t_end / scene.model->time_scale(); !(span <= 1e15)) {
+    const std::string found =
+        fmt::format("{:g} s, {:.3g} times the time scale of the motion", scene.t_end, span);
+    const char* expected = "at most 1e15 times";
+    if (changes.t_end) throw UsageError(fmt::format("--t-end: found {}, expected {}", found, expected));
+    root.fail("t_end", found, expected);
+  }
   for (const std::string& warning : parsed.warnings)
     scene.warnings.push_back(fmt::format("{}: {}", source.file, warning));
   scene.resolved["name"] = scene.name;

@@ -5,36 +5,90 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
-#include <sstream>
+
+#include "src/output/text.hpp"
 
 namespace gnomon {
 
-std::string nearest(std::string_view word, const std::vector<std::string>& known) {
-  const auto distance = [](std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), 0U);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= b.size(); ++j) {
-        const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-        diagonal = row[j];
-        row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-      }
+namespace {
+
+/// Insertions, deletions, changes and exchanges of neighbours that turn one word into the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), 0U);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), last[j] + 1, row[j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before[j - 2] + 1);
     }
-    return row.back();
+    before.swap(last);
+    last.swap(row);
+  }
+  return last.back();
+}
+
+/// A text in quotes, with control characters as escapes.
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      result += {'\\', c};
+    else if (c == '\n')
+      result += "\\n";
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      result += fmt::format("\\u{:04X}", static_cast<int>(c));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+/// A value of a scene as a message shows it; written here because the library's own way depends on its
+/// version.
+std::string shown_value(const toml::node& node) {
+  const auto list = [](const auto& entries, auto&& text) {
+    std::string joined;
+    for (const auto& entry : entries) joined += (joined.empty() ? "" : ", ") + text(entry);
+    return joined;
   };
+  if (const auto* text = node.as_string()) return quoted(text->get());
+  if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
+  if (const auto* real = node.as_floating_point()) {
+    const std::string digits = fmt::format("{}", real->get());
+    return digits.find_first_of(".einf") == std::string::npos ? digits + ".0" : digits;
+  }
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  if (const auto* array = node.as_array())
+    return fmt::format("[{}]", list(*array, [](const toml::node& entry) { return shown_value(entry); }));
+  if (const auto* table = node.as_table())
+    return table->empty() ? "{}" : fmt::format("{{ {} }}", list(*table, [](const auto& entry) {
+                                                 return fmt::format("{} = {}", entry.first.str(),
+                                                                    shown_value(entry.second));
+                                               }));
+  return "a date or time";
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t best_distance = (word.size() + 2) / 3 + 1;
   for (const std::string& candidate : known) {
-    const std::size_t d = distance(word, candidate);
-    if (d < best_distance) {
-      best_distance = d;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
       best = candidate;
     }
   }
   return best;
+}
+
+std::string choices_text(const std::vector<std::string>& choices) {
+  return choices.size() == 1 ? choices[0] : fmt::format("one of {}", fmt::join(choices, ", "));
 }
 
 Section::Section(const toml::table& table, std::string path, const SceneSource& source)
@@ -46,8 +100,17 @@ std::string Section::full(std::string_view key) const {
 
 std::string Section::where(std::string_view key) const {
   const std::string path = full(key);
-  for (const auto& [overridden, option] : source_->overrides)
-    if (path == overridden || path.starts_with(overridden + ".")) return fmt::format("{}: {}", option, path);
+  const auto within = [](const std::string& inner, const std::string& outer) {
+    return inner == outer || inner.starts_with(outer + ".");
+  };
+  const std::string* option = nullptr;
+  std::size_t length = 0;  // the longest path at or above this one is the last that wrote it
+  for (const auto& [overridden, text] : source_->overrides) {
+    const bool above = within(path, overridden);
+    if (above ? overridden.size() >= length : !option && within(overridden, path)) option = &text;
+    if (above) length = overridden.size();
+  }
+  if (option) return fmt::format("{}: {}", *option, path);
   const toml::node* node = table_->get(key);
   toml::source_index line = node ? node->source().begin.line : table_->source().begin.line;
   return line > 0 ? fmt::format("{}:{}: {}", source_->file, line, path)
@@ -61,11 +124,8 @@ void Section::fail(std::string_view key, std::string_view found, std::string_vie
 std::string Section::shown(std::string_view key) const {
   const toml::node* node = table_->get(key);
   if (!node) return "nothing";
-  std::ostringstream stream;
-  node->visit([&](const auto& value) { stream << value; });
-  std::string text = stream.str();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+  const std::string text = output::plain_text(shown_value(*node));
+  return output::display_columns(text) > 60 ? output::first_columns(text, 57) + "..." : text;
 }
 
 bool Section::has(std::string_view key) const { return table_->contains(key); }
@@ -127,8 +187,12 @@ std::string Section::text(std::string_view key, std::string_view expected) {
   return value->get();
 }
 
+std::string Section::text_or(std::string_view key, std::string_view fallback, std::string_view expected) {
+  return find(key) ? text(key, expected) : std::string(fallback);
+}
+
 std::string Section::one_of(std::string_view key, const std::vector<std::string>& choices) {
-  const std::string expected = fmt::format("one of {}", fmt::join(choices, ", "));
+  const std::string expected = choices_text(choices);
   const std::string value = text(key, expected);
   if (std::find(choices.begin(), choices.end(), value) == choices.end()) fail(key, shown(key), expected);
   return value;
@@ -151,17 +215,37 @@ std::string Section::exactly_one(std::string_view first, std::string_view second
   return std::string(has(first) ? first : second);
 }
 
-void Section::finish() const {
+std::string Section::nearest_absent(std::string_view name, const std::vector<std::string>& keys) const {
+  std::vector<std::string> absent;
+  std::copy_if(keys.begin(), keys.end(), std::back_inserter(absent),
+               [&](const std::string& key) { return !has(key); });
+  return nearest(name, absent);
+}
+
+void Section::only(const std::vector<std::string>& keys, std::string_view owner) const {
   for (const auto& [key, node] : *table_) {
     const std::string name(key.str());
-    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    const std::string near = nearest(name, known_);
-    std::vector<std::string> sorted = known_;
-    std::sort(sorted.begin(), sorted.end());
-    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    fail(name, "an unknown key",
-         near.empty() ? fmt::format("one of {}", fmt::join(sorted, ", ")) : fmt::format("{} perhaps", near));
+    if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
+    const std::string near = nearest_absent(name, keys);
+    fail(name, owner.empty() ? "an unknown key" : fmt::format("a key unknown to {}", owner),
+         near.empty() ? choices_text(keys) : near);
   }
+}
+
+void Section::refuse_misspelt(const std::vector<std::string>& keys) const {
+  for (const auto& [key, node] : *table_) {
+    const std::string name(key.str());
+    if (std::find(keys.begin(), keys.end(), name) != keys.end()) continue;
+    if (const std::string near = nearest_absent(name, keys); !near.empty())
+      fail(name, "an unknown key", near);
+  }
+}
+
+void Section::finish() const {
+  std::vector<std::string> keys = known_;
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  only(keys);
 }
 
 }  // namespace gnomon

@@ -36,14 +36,20 @@ class Section {
   std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback,
                                  std::string_view expected);
   std::string text(std::string_view key, std::string_view expected);
+  std::string text_or(std::string_view key, std::string_view fallback, std::string_view expected);
   std::string one_of(std::string_view key, const std::vector<std::string>& choices);
   /// A table inside this one; none when the key is absent.
   std::optional<Section> section(std::string_view key);
   /// Exactly one of two keys must be there; returns it.
   std::string exactly_one(std::string_view first, std::string_view second, std::string_view meaning);
 
-  /// Refuses unknown keys; suggests the nearest known one.
+  /// Refuses the keys that nobody asked for; suggests the nearest one that is not there.
   void finish() const;
+  /// Refuses keys other than these. Called before any is read, it names a misspelt key rather than the key
+  /// that is missing then. `owner` is what has only these keys, in the message.
+  void only(const std::vector<std::string>& keys, std::string_view owner = "") const;
+  /// Refuses keys that look like a misspelling of one of these that is not there; allows all others.
+  void refuse_misspelt(const std::vector<std::string>& keys) const;
 
   /// Reports a value of this table that is wrong for a reason only the model knows.
   [[noreturn]] void fail(std::string_view key, std::string_view found, std::string_view expected) const;
@@ -56,6 +62,7 @@ class Section {
   double finite(const toml::node& node, std::string_view key, std::string_view expected) const;
   std::string where(std::string_view key) const;
   std::string full(std::string_view key) const;
+  std::string nearest_absent(std::string_view name, const std::vector<std::string>& keys) const;
 
   const toml::table* table_;
   std::string path_;
@@ -63,7 +70,10 @@ class Section {
   std::vector<std::string> known_;
 };
 
-/// The known word nearest to a misspelt one, or empty when none is near.
+/// The known word nearest to a misspelt one, or empty when none is near: more than a third of the letters
+/// differ, an exchange of two neighbours counted once.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
+/// "one of a, b, c", or just "a".
+std::string choices_text(const std::vector<std::string>& choices);
 
 }  // namespace gnomon

@@ -100,7 +100,11 @@ void Session::check(int flag, const char* call) const {
   if (flag < 0) throw std::runtime_error(fmt::format("{} failed with {}: {}", call, flag, messages_.last));
 }
 
-bool optimised() { return build_record().find("-O") != std::string::npos; }
+bool optimised() {
+  const std::string record = build_record();
+  return record.find("-O2") != std::string::npos || record.find("-O3") != std::string::npos ||
+         record.find("build_type=Release") != std::string::npos;
+}
 std::string build_record() { return GNOMON_SUNDIALS_RECORD; }
 
 }  // namespace gnomon::sundials

@@ -23,6 +23,8 @@ Eigen::Quaterniond read_orientation(Section& body) {
     if (key == "rotation_vector") {
       const Eigen::Vector3d p = vector(body.numbers(key, 3, "three finite numbers (rotation vector, rad)"));
       const double angle = p.norm();
+      if (!std::isfinite(angle))
+        body.fail(key, body.shown(key), "three numbers with a finite norm (rotation vector, rad)");
       return angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, p / angle))
                          : Eigen::Quaterniond::Identity();
     }
@@ -33,17 +35,17 @@ Eigen::Quaterniond read_orientation(Section& body) {
                 "a unit quaternion (norm 1 to 1e-6)");
     return q.normalized();
   }
-  body.numbers_or("orientation", {1, 0, 0, 0}, "");
-  body.numbers_or("rotation_vector", {0, 0, 0}, "");
   return Eigen::Quaterniond::Identity();
 }
 
 }  // namespace
 
 ParsedModel read(Section& root, double t_end) {
+  root.refuse_misspelt({"body", "load"});
   std::optional<Section> body = root.section("body");
   if (!body)
     root.fail("body", "nothing", "a table [body] with inertia and angular_momentum or angular_velocity");
+  body->only({"inertia", "orientation", "rotation_vector", "angular_momentum", "angular_velocity"});
 
   const Eigen::Vector3d inertia =
       vector(body->numbers("inertia", 3, "three positive numbers (principal moments, kg m^2)"));
@@ -57,7 +59,8 @@ ParsedModel read(Section& root, double t_end) {
                            momentum ? "three finite numbers (body components, kg m^2/s)"
                                     : "three finite numbers (body components, rad/s)"));
   const Eigen::Vector3d m = momentum ? given : Eigen::Vector3d(given.cwiseProduct(inertia));
-  body->finish();
+  if (!m.allFinite())
+    body->fail(key, body->shown(key), "three numbers whose products with the inertia are finite (rad/s)");
 
   ParsedModel parsed;
   const double coefficients[4] = {q.w(), q.x(), q.y(), q.z()};
@@ -75,8 +78,10 @@ ParsedModel read(Section& root, double t_end) {
 
   if (std::optional<Section> load = root.section("load")) {
     const std::string kind = load->one_of("kind", {"none", "gravity", "space_moment", "body_moment"});
+    const std::string owner = fmt::format("kind \"{}\"", kind);
     resolved["load"] = {{"kind", kind}};
     if (kind == "gravity") {
+      load->only({"kind", "weight", "centre"}, owner);
       const double weight = load->positive("weight", "a positive number (weight, N, along -z of space)");
       const Eigen::Vector3d centre =
           vector(load->numbers("centre", 3, "three finite numbers (body point, m)"));
@@ -84,14 +89,16 @@ ParsedModel read(Section& root, double t_end) {
       resolved["load"]["centre"] = list(centre);
       parsed.model = box(RigidBody<Gravity>(inertia, initial, {weight, centre}, t_end));
     } else if (kind != "none") {
+      load->only({"kind", "moment"}, owner);
       const Eigen::Vector3d moment = vector(load->numbers("moment", 3, "three finite numbers (N m)"));
       resolved["load"]["moment"] = list(moment);
       if (kind == "space_moment")
         parsed.model = box(RigidBody<SpaceMoment>(inertia, initial, {moment}, t_end));
       else
         parsed.model = box(RigidBody<BodyMoment>(inertia, initial, {moment}, t_end));
+    } else {
+      load->only({"kind"}, owner);
     }
-    load->finish();
   }
   if (!parsed.model) parsed.model = box(RigidBody<Free>(inertia, initial, {}, t_end));
   parsed.resolved = std::make_shared<Json>(std::move(resolved));

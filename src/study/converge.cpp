@@ -12,7 +12,7 @@ std::vector<double> default_tols() {
 }
 
 std::vector<Setting> ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
-  return settings(scheme, options, step_ladder(scene, options.quick ? 13 : 17, 0.5), default_tols());
+  return settings(scheme, options, step_ladder(scene, options.quick ? 17 : 21, 0.5), default_tols());
 }
 
 OrderRow observe(const Convergence& study, const SchemeInfo& scheme, std::size_t metric) {

@@ -34,10 +34,9 @@ struct BookCoefficients {
   bool from_previous_stage = false;  ///< stage 3 rotates the triad of stage 2 by half a step
 };
 
-/// A scheme of these steps. `Plan` has `coefficients` and `info`.
-template <class Plan>
-struct BookScheme {
-  static constexpr SchemeInfo info = Plan::info;
+/// These steps with some coefficients; a scheme derives from it and adds its `info`.
+template <BookCoefficients c>
+struct BookStep {
   template <rotation::RotationForm M>
   using State = rotation::TriadState;
 
@@ -56,7 +55,6 @@ struct BookScheme {
 
   template <rotation::RotationForm M>
   static Status step(const M& model, rotation::TriadState& state, double t, double h) {
-    constexpr BookCoefficients c = Plan::coefficients;
     const Matrix3 A = state.attitude;
     const Vector3 H = state.momentum;
     const auto velocity = [&](const Matrix3& triad, const Vector3& momentum) -> Vector3 {
@@ -67,15 +65,15 @@ struct BookScheme {
     const Matrix3 A1 = rot(0.5 * h * w1, A);
     const Vector3 m2 = c.stage_moments ? Vector3(model.moment(t + 0.5 * h, A1)) : m1;
     const Vector3 w2 = velocity(A1, H + c.stage_impulse * h * m1);
-    const Matrix3 A2 = rot(0.5 * h * w2 - c.first_commutator * h * h / 8.0 * w1.cross(w2),
-                           c.from_previous_stage ? A1 : A);
+    const Matrix3 A2 =
+        rot(0.5 * h * w2 - c.first_commutator * h * h / 8.0 * w1.cross(w2), c.from_previous_stage ? A1 : A);
     const Vector3 m3 = c.stage_moments ? Vector3(model.moment(t + 0.5 * h, A2)) : m1;
     const Vector3 w3 = velocity(A2, H + c.stage_impulse * h * m2);
     const Matrix3 A3 = rot(h * w3, A);
     const Vector3 m4 = c.stage_moments ? Vector3(model.moment(t + h, A3)) : m1;
     const Vector3 w4 = velocity(A3, H + h * m3);
-    const Vector3 p =
-        h / 6.0 * (w1 + c.weight2 * w2 + c.weight3 * w3 + w4) - c.last_commutator * h * h / 12.0 * w1.cross(w4);
+    const Vector3 p = h / 6.0 * (w1 + c.weight2 * w2 + c.weight3 * w3 + w4) -
+                      c.last_commutator * h * h / 12.0 * w1.cross(w4);
     state.momentum = H + h / 6.0 * (m1 + c.moment_weight2 * m2 + c.moment_weight3 * m3 + m4);
     state.attitude = rot(p, A);
     return Status::ok;
