@@ -73,7 +73,7 @@ struct PreviousStage : BookStep<BookCoefficients{.stage_moments = false,
 };
 // An order that is higher than declared is a wrong declaration, too.
 struct BetterThanDeclared : BookStep<BookCoefficients{.first_commutator = 0.0, .last_commutator = 0.0}> {
-  static constexpr SchemeInfo info = planted("better-than-declared", half_impulse_orders);
+  static constexpr SchemeInfo info = planted("better-than-declared", rotation::Munjiza::info.orders);
 };
 using FourthOrderDefects = TypeList<SignsReversed, LastCommutatorOff, FirstCommutatorMissing, WeightOff,
                                     WeightsShifted, MomentWeightsShifted>;

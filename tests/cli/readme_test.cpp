@@ -1,0 +1,43 @@
+// What the README shows must work when it is pasted.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/catch.hpp"
+
+namespace {
+
+std::vector<std::string> commands_of_readme() {
+  std::ifstream in(GNOMON_SOURCE_DIR "/README.md");
+  std::vector<std::string> commands;
+  bool shell = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) shell = line == "```sh";
+    else if (shell && line.starts_with("./gnomon ")) commands.push_back(line.substr(9));
+  }
+  return commands;
+}
+
+}  // namespace
+
+TEST_CASE("cli: the README's examples work as printed", "[cli]") {
+  namespace fs = std::filesystem;
+  const std::vector<std::string> commands = commands_of_readme();
+  REQUIRE(commands.size() >= 6);
+  const fs::path folder = fs::temp_directory_path() / "gnomon-readme-test";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  for (const std::string& command : commands) {
+    INFO(command);
+    const std::string line = "cd '" + folder.string() + "' && '" GNOMON_PROGRAM "' " + command + " >out.txt 2>err.txt";
+    CHECK(std::system(line.c_str()) == 0);
+    CHECK(fs::file_size(folder / "out.txt") > 0);
+  }
+  CHECK(fs::exists(folder / "run.json"));
+  CHECK(fs::exists(folder / "compare" / "compare-asymmetric-free-top.svg"));
+  CHECK(fs::exists(folder / "drift" / "drift-asymmetric-free-top.png"));
+  fs::remove_all(folder);
+}
