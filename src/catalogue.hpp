@@ -48,15 +48,16 @@ struct Library {
   std::string build;              ///< its build record, may be empty
 };
 
-/// An integration written without gnomon that one of its integrators is held against, on the same scene and tolerance.
+/// An integration written without gnomon that one of its integrators is held against, on the same scene and
+/// tolerance.
 struct Yardstick {
   std::string_view name;
   std::string_view summary;
   std::string_view scene;
   std::string_view integrator;
   double tol;
-  /// Integrates the scene's model to t_end; returns thread CPU seconds (negative on failure), flattened final state and
-  /// number of evaluations.
+  /// Integrates the scene's model to t_end; returns thread CPU seconds (negative on failure), flattened final
+  /// state and number of evaluations.
   double (*run)(const void* model, double t_end, double tol, std::vector<double>& state, long& evaluations);
 };
 

@@ -97,11 +97,12 @@ nlohmann::ordered_json environment(const Catalogue& catalogue) {
 std::string sundials_line(const Catalogue& catalogue) {
   const Library* library = find(catalogue, "sundials");
   if (!library) return "no SUNDIALS";
-  return fmt::format("SUNDIALS {} ({})", library->version,
-                     library->optimised.value_or(false)
-                         ? "compiled with optimisation: " + library->build
-                         : "no record of an optimised build; packaged libraries are compiled without, and take 2 to 4 "
-                           "times as long");
+  return fmt::format(
+      "SUNDIALS {} ({})", library->version,
+      library->optimised.value_or(false)
+          ? "compiled with optimisation: " + library->build
+          : "no record of an optimised build; packaged libraries are compiled without, and take 2 to 4 "
+            "times as long");
 }
 
 std::vector<Finding> examine(const Catalogue& catalogue) {

@@ -41,6 +41,7 @@ toml::table parse_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) refuse("a file that cannot be read");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (text.empty()) refuse("an empty file");
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& error) {

@@ -31,7 +31,8 @@ struct CvodeAdams : OnOde {
   static constexpr SchemeInfo info{
       .name = "cvode-adams",
       .family = "sundials",
-      .summary = "CVODE, Adams-Moulton of order 1 to 12 with variable step, fixed-point iteration",
+      .summary =
+          "CVODE, Adams-Moulton of order 1 to 12 with variable step, Newton with the analytic Jacobian",
       .citation = cvode_citation,
       .form = "ode",
       .stepping = Stepping::adaptive,

@@ -7,7 +7,6 @@
 
 #include <sundials/sundials_linearsolver.h>
 #include <sundials/sundials_matrix.h>
-#include <sundials/sundials_nonlinearsolver.h>
 
 #include "integrators/sundials/compat.hpp"
 #include "src/ode.hpp"
@@ -37,12 +36,10 @@ struct Deleter {
   void operator()(N_Vector v) const { N_VDestroy(v); }
   void operator()(SUNMatrix m) const { SUNMatDestroy(m); }
   void operator()(SUNLinearSolver s) const { SUNLinSolFree(s); }
-  void operator()(SUNNonlinearSolver s) const { SUNNonlinSolFree(s); }
 };
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, Deleter>;
 using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Deleter>;
 using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Deleter>;
-using NonlinearSolver = std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, Deleter>;
 
 /// A dense or, where the system declares a pattern, a sparse matrix with KLU.
 struct Linear {

@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A part of the study: it writes files of its own and is skipped when an earlier call with the same program and plan
-/// has finished it.
+/// A part of the study: it writes files of its own and is skipped when an earlier call with the same program
+/// and plan has finished it.
 struct Part {
   std::string name;     ///< also the stem of its files
   std::string heading;  ///< in the index
@@ -53,8 +53,9 @@ class Study {
       runs += part.runs;
     }
     if (known > 0)
-      std::cerr << fmt::format("gnomon: {} of {} parts are there from an earlier call (--fresh makes them again)\n",
-                               known, parts_.size());
+      std::cerr << fmt::format(
+          "gnomon: {} of {} parts are there from an earlier call (--fresh makes them again)\n", known,
+          parts_.size());
     output::Progress progress(runs, output::progress_mode(request_.quiet), std::cerr);
     for (const Part* part : open) {
       if (context_.stop.load() || !part->make(progress)) {
@@ -85,19 +86,22 @@ class Study {
     std::size_t runs = 0;
     StudyOptions fixed = options;
     for (const Scene& scene : converging) runs += converge_runs(context_.catalogue, scene, fixed);
-    parts_.push_back({model + "-orders", "Order of convergence", runs,
-                      [=, this](output::Progress& progress) { return make_orders(model, converging, fixed, progress); }});
+    parts_.push_back({model + "-orders", "Order of convergence", runs, [=, this](output::Progress& progress) {
+                        return make_orders(model, converging, fixed, progress);
+                      }});
     for (const Scene& scene : scenes(request_.quick ? study.quick_compare : study.compare))
-      parts_.push_back({"compare-" + scene.name, "Work and precision: " + scene.name,
-                        compare_runs(context_.catalogue, scene, options),
-                        [=, this](output::Progress& progress) { return make_comparison(scene, options, progress); }});
+      parts_.push_back(
+          {"compare-" + scene.name, "Work and precision: " + scene.name,
+           compare_runs(context_.catalogue, scene, options),
+           [=, this](output::Progress& progress) { return make_comparison(scene, options, progress); }});
     for (const DriftPlan& plan : study.drift) {
       if (request_.quick && !plan.quick_t_end) continue;
       parts_.push_back({"drift-" + plan.scene, "Drift: " + plan.scene, plan.integrators.size(),
                         [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
     }
-    parts_.push_back({model + "-speed", "Speed", 1,
-                      [=, this](output::Progress& progress) { return make_speed(model, study.speed, progress); }});
+    parts_.push_back({model + "-speed", "Speed", 1, [=, this](output::Progress& progress) {
+                        return make_speed(model, study.speed, progress);
+                      }});
   }
 
   bool make_orders(const std::string& model, const std::vector<Scene>& scenes, const StudyOptions& options,
@@ -112,8 +116,9 @@ class Study {
       Document own(context_.catalogue, "bench");
       own.add(studies.back());
       own.add_orders(studies.back());
-      write_study(folder_, "converge-" + scene.name, {orders_table(studies.back()), runs_table(studies.back(), "Runs")},
-                  own, convergence_figure(context_.catalogue, studies.back()), command("converge " + scene.name));
+      write_study(folder_, "converge-" + scene.name,
+                  {orders_table(studies.back()), runs_table(studies.back(), "Runs")}, own,
+                  convergence_figure(context_.catalogue, studies.back()), command("converge " + scene.name));
     }
     write_study(folder_, model + "-orders", {order_matrix(studies)}, document, std::nullopt, "");
     return true;
@@ -138,15 +143,16 @@ class Study {
     options.integrators = plan.integrators;
     options.steps = {plan.step};
     options.tols = {plan.tol};
-    const DriftStudy study = drift(runner_, load_scene(context_.catalogue, plan.scene, changes), options, progress);
+    const DriftStudy study =
+        drift(runner_, load_scene(context_.catalogue, plan.scene, changes), options, progress);
     if (study.interrupted) return false;
     Document document(context_.catalogue, "bench");
     document.add(study);
     document.add_drifts(study);
     write_study(folder_, "drift-" + plan.scene, {drift_table(study)}, document,
                 drift_figure(context_.catalogue, study, "energy"),
-                command(fmt::format("drift {} --step {:g} --tols {:g} --t-end {:g}", plan.scene, plan.step, plan.tol,
-                                    *changes.t_end)));
+                command(fmt::format("drift {} --step {:g} --tols {:g} --t-end {:g}", plan.scene, plan.step,
+                                    plan.tol, *changes.t_end)));
     return true;
   }
 
@@ -162,7 +168,9 @@ class Study {
     return true;
   }
 
-  static std::string command(const std::string& arguments) { return fmt::format("`./gnomon {}`\n\n", arguments); }
+  static std::string command(const std::string& arguments) {
+    return fmt::format("`./gnomon {}`\n\n", arguments);
+  }
 
   std::string stamp(const Part& part) const {
     return fmt::format("{}/bench/{}/{}", GNOMON_BINARY_DIR, hash_text(fs::absolute(folder_).string()),
@@ -170,7 +178,8 @@ class Study {
   }
   bool finished(const Part& part, const std::string& program) const {
     try {
-      return fs::exists(fmt::format("{}/{}.md", folder_, part.name)) && output::read_file(stamp(part)) == program;
+      return fs::exists(fmt::format("{}/{}.md", folder_, part.name)) &&
+             output::read_file(stamp(part)) == program;
     } catch (const std::exception&) {
       return false;
     }
@@ -187,13 +196,15 @@ class Study {
       const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
       // The table of runs is in the part's own page.
       text += content.substr(0, content.find("**Runs**"));
-      text += fmt::format("\nAll of it: [{0}.md]({0}.md), [{0}.csv]({0}.csv), [{0}.json]({0}.json)\n", part.name);
+      text +=
+          fmt::format("\nAll of it: [{0}.md]({0}.md), [{0}.csv]({0}.csv), [{0}.json]({0}.json)\n", part.name);
     }
     output::write_file_atomically(folder_ + "/README.md", text);
     for (const Part& part : parts_)
       if (part.name.ends_with("-orders") || part.name.ends_with("-speed"))
         say(request_, output::read_file(fmt::format("{}/{}.md", folder_, part.name)));
-    say(request_, fmt::format("wrote {} parts to {}; start with {}/README.md", parts_.size(), folder_, folder_));
+    say(request_,
+        fmt::format("wrote {} parts to {}; start with {}/README.md", parts_.size(), folder_, folder_));
   }
 
   void update_readme() const {

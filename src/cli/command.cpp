@@ -1,35 +1,45 @@
 #include "src/cli/command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
+#include <stdexcept>
 
 #include "src/error.hpp"
 #include "src/output/files.hpp"
+#include "src/output/text.hpp"
 
 namespace gnomon::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, std::string_view expected) {
+  throw UsageError(fmt::format("{}: found '{}', expected {}", option, text, expected));
+}
+
 double number(const std::string& option, const std::string& text, const std::string& expected) {
+  const bool plus = text.starts_with("+") && !text.starts_with("+-");
   double value = 0.0;
   const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value))
-    throw UsageError(fmt::format("{}: found '{}', expected {}", option, text, expected));
+  const auto result = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) refuse(option, text, expected);
   return value;
 }
 
-long whole(const std::string& option, const std::string& text, long least, const std::string& expected) {
+long whole(const std::string& option, const std::string& text, long most) {
   long value = 0;
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || value < least)
-    throw UsageError(fmt::format("{}: found '{}', expected {}", option, text, expected));
+  if (result.ec != std::errc() || result.ptr != end || value < 1 || value > most)
+    refuse(option, text, fmt::format("a whole number from 1 to {}, in digits", most));
   return value;
 }
 
@@ -41,40 +51,72 @@ std::vector<std::string> split(const std::string& text) {
   return parts;
 }
 
+/// Throws if what was printed could not be written, as on a full disk.
+void flush_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw std::runtime_error("standard output cannot be written");
+}
+
+/// Refuses steps so short that their number could not be counted exactly.
+void check_steps(const Request& request, const std::vector<Scene>& scenes) {
+  const StudyOptions options = study_options(request);
+  for (const Scene& scene : scenes)
+    for (const double step : options.steps)
+      if (!(scene.t_end / step <= 1e15))
+        refuse(request.step.empty() ? "--steps" : "--step",
+               request.step.empty() ? fmt::format("{:g}", step) : request.step,
+               fmt::format("at least {:g} s, {:g} s / 1e15", scene.t_end / 1e15, scene.t_end));
+}
+
 }  // namespace
 
 double positive_number(const std::string& option, const std::string& text, const std::string& expected) {
   const double value = number(option, text, expected);
-  if (value <= 0.0) throw UsageError(fmt::format("{}: found '{}', expected {}", option, text, expected));
+  if (value <= 0.0) refuse(option, text, expected);
   return value;
 }
 
 StudyOptions study_options(const Request& request) {
   StudyOptions options;
-  options.integrators = split(request.integrators);
-  const auto numbers = [](const std::string& option, const std::string& text, const std::string& expected) {
-    std::vector<double> values;
-    for (const std::string& part : split(text)) values.push_back(positive_number(option, part, expected));
-    return values;
-  };
-  const auto tolerance = [](const std::string& option, const std::string& text) {
-    const double value = positive_number(option, text, "a tolerance between 0 and 1");
-    if (value >= 1.0)
-      throw UsageError(fmt::format("{}: found '{}', expected a tolerance between 0 and 1", option, text));
+  const auto tolerance = [](const std::string& option, const std::string& text, const std::string& expected) {
+    const double value = positive_number(option, text, expected);
+    if (value >= 1.0) refuse(option, text, expected);
     return value;
   };
-  options.steps = numbers("--steps", request.steps, "positive numbers separated by commas (s)");
-  for (const std::string& part : split(request.tols)) options.tols.push_back(tolerance("--tols", part));
+  const auto each = [](const std::string& option, const std::string& list, auto&& read) {
+    std::vector<double> values;
+    for (const std::string& part : split(list)) {
+      const double value = read(option, part);
+      if (std::find(values.begin(), values.end(), value) != values.end())
+        throw UsageError(fmt::format("{}: found '{}' twice, expected every value once", option, part));
+      values.push_back(value);
+    }
+    return values;
+  };
+  for (std::string& name : split(request.integrators)) {
+    if (name.empty()) refuse("--integrators", request.integrators, "names with one comma between them");
+    if (std::find(options.integrators.begin(), options.integrators.end(), name) != options.integrators.end())
+      throw UsageError(fmt::format("--integrators: found '{}' twice, expected every name once", name));
+    options.integrators.push_back(std::move(name));
+  }
+  options.steps = each("--steps", request.steps, [](const std::string& option, const std::string& text) {
+    return positive_number(option, text, "positive numbers (s) with one comma between them");
+  });
+  options.tols = each("--tols", request.tols, [&](const std::string& option, const std::string& text) {
+    return tolerance(option, text, "tolerances between 0 and 1 with one comma between them");
+  });
+  const std::string tolerance_text = "a tolerance between 0 and 1";
   if (!request.step.empty())
     options.steps = {positive_number("--step", request.step, "a positive number (s)")};
-  if (!request.tol.empty()) options.tols = {tolerance("--tol", request.tol)};
+  if (!request.tol.empty()) options.tols = {tolerance("--tol", request.tol, tolerance_text)};
   if (!request.samples.empty())
-    options.samples = static_cast<int>(whole("--samples", request.samples, 1, "a positive whole number"));
+    options.samples = static_cast<int>(whole("--samples", request.samples, 1'000'000));
   if (!request.max_steps.empty())
-    options.max_steps = whole("--max-steps", request.max_steps, 1, "a positive whole number");
+    options.max_steps = whole("--max-steps", request.max_steps, 1'000'000'000'000'000);
   if (!request.time_limit.empty())
     options.time_limit = positive_number("--time-limit", request.time_limit, "a positive number (s)");
-  if (!request.newton_tol.empty()) options.newton_tol = tolerance("--newton-tol", request.newton_tol);
+  if (!request.newton_tol.empty())
+    options.newton_tol = tolerance("--newton-tol", request.newton_tol, tolerance_text);
   options.reference = !request.no_reference;
   options.timing = !request.no_timing;
   options.quick = request.quick;
@@ -91,30 +133,47 @@ SceneChanges scene_changes(const Request& request) {
 
 std::vector<Scene> load_scenes(const Context& context) {
   std::vector<Scene> scenes;
-  for (const std::string& name : context.request.scenes)
+  for (const std::string& name : context.request.scenes) {
     scenes.push_back(load_scene(context.catalogue, name, scene_changes(context.request)));
+    for (std::size_t k = 0; k + 1 < scenes.size(); ++k)
+      if (scenes[k].name == scenes.back().name)
+        throw UsageError(fmt::format("SCENE: found two scenes with the name '{}', expected different names",
+                                     scenes.back().name));
+  }
   if (scenes.empty())
     throw UsageError("SCENE: found nothing, expected the name of a shipped scene or a .toml file");
+  check_steps(context.request, scenes);
   for (const Scene& scene : scenes)
-    for (const std::string& warning : scene.warnings) std::cerr << "gnomon: warning: " << warning << '\n';
+    for (const std::string& warning : scene.warnings)
+      std::cerr << "gnomon: warning: " << output::plain_text(warning) << '\n';
   return scenes;
 }
 
 void check_outputs(const Request& request) {
-  namespace fs = std::filesystem;
-  const auto check_file = [](const std::string& option, const std::string& name) {
+  const auto writable = [](const fs::path& path) { return ::access(path.c_str(), W_OK) == 0; };
+  const auto check_file = [&](const std::string& option, const std::string& name) {
     if (name.empty() || name == "-") return;
     const fs::path path(name);
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    if (fs::is_directory(path))
-      throw UsageError(fmt::format("{}: found '{}', a folder, expected a file name", option, name));
-    if (!fs::is_directory(folder))
-      throw UsageError(fmt::format("{}: found '{}', expected a file in a folder that exists", option, name));
+    std::error_code code;
+    if (fs::is_directory(path, code))
+      throw UsageError(fmt::format("{}: found the folder '{}', expected a file", option, name));
+    if (!fs::is_directory(folder, code)) refuse(option, name, "a file in a folder that exists");
+    if (!writable(fs::is_regular_file(path, code) || !fs::exists(path, code) ? folder : path))
+      refuse(option, name, "a file that can be written");
   };
   check_file("--json", request.json);
   check_file("--csv", request.csv);
-  if (!request.out.empty() && fs::exists(request.out) && !fs::is_directory(request.out))
-    throw UsageError(fmt::format("--out: found '{}', a file, expected a folder", request.out));
+  if (!request.json.empty() && request.json == request.csv)
+    throw UsageError(fmt::format("--csv: found '{}' as in --json, expected another file", request.csv));
+  if (request.out.empty()) return;
+  // Folders that are not there are made in the first one above them that is.
+  std::error_code code;
+  fs::path existing = fs::absolute(request.out, code);
+  while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
+  if (!fs::is_directory(existing, code))
+    throw UsageError(fmt::format("--out: found the file '{}', expected a folder", request.out));
+  if (!writable(existing)) refuse("--out", request.out, "a folder that can be written");
 }
 
 void say(const Request& request, const std::string& line) {
@@ -136,7 +195,7 @@ void write_outputs(const Request& request, const Document& document,
   std::string csv;
   for (const output::Table& table : tables) csv += (csv.empty() ? "" : "\n") + output::to_csv(table);
   write(request.csv, csv);
-  std::fflush(stdout);
+  flush_output();
 }
 
 void write_json(const Request& request, const nlohmann::ordered_json& json) {
@@ -145,21 +204,31 @@ void write_json(const Request& request, const nlohmann::ordered_json& json) {
     fmt::print("{}\n", json.dump(1));
   else
     output::write_file_atomically(request.json, json.dump(1) + "\n");
+  flush_output();
 }
 
 void check_ladders(const Context& context, const std::vector<Scene>& scenes, const StudyOptions& options) {
+  const Request& request = context.request;
   for (const Scene& scene : scenes) {
     bool fixed = false, adaptive = false;
     for (const SchemeInfo* scheme : select(context.catalogue, scene, options)) {
       fixed = fixed || scheme->stepping == Stepping::fixed;
       adaptive = adaptive || scheme->stepping == Stepping::adaptive;
     }
-    if (!options.steps.empty() && !fixed)
-      throw UsageError(
-          "--steps: found steps, expected --tols because every chosen integrator chooses its own steps");
-    if (!options.tols.empty() && !adaptive)
-      throw UsageError(
-          "--tols: found tolerances, expected --steps because every chosen integrator takes equal steps");
+    const auto check = [&](const std::string& text, const std::string& option, bool used, bool other_used,
+                           std::string_view other, std::string_view because) {
+      if (text.empty() || used) return;
+      if (!other_used)
+        throw UsageError(fmt::format("{}: found '{}', expected nothing because only closed forms are to run",
+                                     option, text));
+      throw UsageError(fmt::format("{}: found '{}', expected {} because every chosen integrator {}", option,
+                                   text, other, because));
+    };
+    const char *own = "chooses its own steps", *equal = "takes equal steps";
+    check(request.step, "--step", fixed, adaptive, "--tol", own);
+    check(request.steps, "--steps", fixed, adaptive, "--tols", own);
+    check(request.tol, "--tol", adaptive, fixed, "--step", equal);
+    check(request.tols, "--tols", adaptive, fixed, "--steps", equal);
   }
 }
 

@@ -1,181 +1,253 @@
 #include "src/cli/parse.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+#include <variant>
 
 #include "src/cli/command.hpp"
 #include "src/environment.hpp"
 #include "src/error.hpp"
+#include "src/output/text.hpp"
 #include "src/scene_reader.hpp"
 
 namespace gnomon::cli {
 namespace {
 
-/// A command with the options it knows.
+using Text = std::string Request::*;
+using Texts = std::vector<std::string> Request::*;
+using Switch = bool Request::*;
+
+/// An option, or an argument without a dash where the name has none.
+struct Option {
+  char letter;
+  const char* name;
+  const char* value;  ///< what stands for its value in the help; empty for a switch
+  const char* help;
+  std::variant<Text, Texts, Switch> target;
+
+  bool positional() const { return name[0] != '-'; }
+};
+
+constexpr Option options[] = {
+    {'S', "SCENE", "", "the name of a shipped scene or a .toml file", &Request::scenes},
+    {'w', "WHAT", "", "scenes, models or integrators; all without it", &Request::what},
+    {'i', "--integrator", "NAME", "see `gnomon list integrators`", &Request::integrators},
+    {'I', "--integrators", "A,B,..", "default: all that run on the scene", &Request::integrators},
+    {'H', "--step", "H", "equal steps, s; T/ceil(T/H) is used", &Request::step},
+    {'h', "--steps", "H1,H2,..", "equal steps, s", &Request::steps},
+    {'T', "--tol", "X", "relative tolerance; the absolute one is X times each component's scale",
+     &Request::tol},
+    {'t', "--tols", "X1,X2,..", "relative tolerances", &Request::tols},
+    {'e', "--t-end", "T", "end of the integration, s", &Request::t_end},
+    {'a', "--set", "KEY.PATH=VALUE", "override a key of the scene; may be given several times",
+     &Request::set},
+    {'x', "--max-steps", "N", "steps after which a run ends", &Request::max_steps},
+    {'l', "--time-limit", "SECONDS", "wall-clock time after which a run ends", &Request::time_limit},
+    {'n', "--newton-tol", "X", "of implicit fixed-step schemes (default 1e-10)", &Request::newton_tol},
+    {'s', "--samples", "N", "equally spaced states kept in the output", &Request::samples},
+    {'j', "--json", "FILE", "- is standard output", &Request::json},
+    {'c', "--csv", "FILE", "- is standard output", &Request::csv},
+    {'o', "--out", "DIR", "folder for tables and figures", &Request::out},
+    {'R', "--no-reference", "", "errors become null", &Request::no_reference},
+    {'M', "--no-timing", "", "nothing is timed", &Request::no_timing},
+    {'q', "--quick", "", "shorter ladders", &Request::quick},
+    {'F', "--fresh", "", "recompute the parts that an earlier call finished", &Request::fresh},
+    {'Q', "--quiet", "", "no progress on standard error", &Request::quiet},
+};
+
 struct Command {
   const char* name;
+  const char* usage;
   const char* help;
-  const char* options;  ///< letters, see add_options
+  const char* letters;  ///< of its options, in the order of the help
   int (*run)(Context&);
 };
 
 constexpr Command commands[] = {
-    {"list", "what exists: scenes, models, integrators", "wj", list},
-    {"run", "one integration of one scene", "SiHTeaxlnsjcRMq", run},
-    {"converge", "error against step or tolerance, observed order", "SIhteaxlnjcoRq", converge},
-    {"compare", "work-precision: error against CPU time and evaluations", "SIhteaxlnjcoRMq", compare},
-    {"drift", "invariants over a long run", "SIHTeaxlnjcoRq", drift},
-    {"bench", "the published study: all tables and figures", "oqF", bench},
-    {"doctor", "versions, build flags, is SUNDIALS optimised, timer noise", "j", doctor},
+    {"list", "[scenes | models | integrators]", "what exists: scenes, models, integrators", "wjQ", list},
+    {"run", "SCENE --integrator NAME (--step H | --tol X)", "one integration of one scene", "SiHTeaxlnsjcRMQ",
+     run},
+    {"converge", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
+     "error against step or tolerance, observed order", "SIhteaxlnjcoRMqQ", converge},
+    {"compare", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
+     "work-precision: error against CPU time and evaluations", "SIhteaxlnjcoRMqQ", compare},
+    {"drift", "SCENE.. [--integrators A,B,..] [--step H] [--tol X] [--t-end T]", "invariants over a long run",
+     "SIHTeaxlnjcoRMQ", drift},
+    {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", "oqFQ", bench},
+    {"doctor", "", "versions, build flags, is SUNDIALS optimised, timer noise", "jQ", doctor},
 };
 
-void add_options(CLI::App& app, Request& r, const std::string& letters) {
-  const auto text = [&](const char* name, std::string& value, const char* help) {
-    app.add_option(name, value, help)->type_name("");
-  };
-  for (const char letter : letters) switch (letter) {
-      case 'S':
-        app.add_option("SCENE", r.scenes, "name of a shipped scene, or a .toml file")->type_name("");
-        break;
-      case 'w':
-        text("WHAT", r.what, "scenes, models or integrators; all without it");
-        break;
-      case 'i':
-        text("--integrator", r.integrators, "NAME");
-        break;
-      case 'I':
-        text("--integrators", r.integrators, "A,B,.. (default: all that run on the scene)");
-        break;
-      case 'H':
-        text("--step", r.step, "H: equal steps, s; T/ceil(T/H) is used");
-        break;
-      case 'h':
-        text("--steps", r.steps, "H1,H2,.. s");
-        break;
-      case 'T':
-        text("--tol", r.tol, "X: relative tolerance; the absolute one is X times each component's scale");
-        break;
-      case 't':
-        text("--tols", r.tols, "X1,X2,..");
-        break;
-      case 'e':
-        text("--t-end", r.t_end, "T: end of the integration, s");
-        break;
-      case 'a':
-        app.add_option("--set", r.set, "KEY.PATH=VALUE: override a key of the scene")
-            ->type_name("")
-            ->expected(1)
-            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-            ->take_all();
-        break;
-      case 's':
-        text("--samples", r.samples, "N: equally spaced states kept in the output");
-        break;
-      case 'x':
-        text("--max-steps", r.max_steps, "N");
-        break;
-      case 'l':
-        text("--time-limit", r.time_limit, "SECONDS of wall-clock time a run");
-        break;
-      case 'n':
-        text("--newton-tol", r.newton_tol, "X: of implicit fixed-step schemes (default 1e-10)");
-        break;
-      case 'j':
-        text("--json", r.json, "FILE; - is standard output");
-        break;
-      case 'c':
-        text("--csv", r.csv, "FILE; - is standard output");
-        break;
-      case 'o':
-        text("--out", r.out, "DIR for tables and figures");
-        break;
-      case 'R':
-        app.add_flag("--no-reference", r.no_reference, "errors become null");
-        break;
-      case 'M':
-        app.add_flag("--no-timing", r.no_timing, "nothing is timed");
-        break;
-      case 'q':
-        app.add_flag("--quick", r.quick, "shorter ladders");
-        break;
-      case 'F':
-        app.add_flag("--fresh", r.fresh, "recompute the parts that an earlier call finished");
-        break;
-    }
-  app.add_flag("--quiet", r.quiet, "no progress on standard error");
-}
-
-std::vector<std::string> option_names(const CLI::App& app) {
+std::vector<std::string> command_names() {
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const Command& command : commands) names.emplace_back(command.name);
   return names;
 }
 
-[[noreturn]] void refuse_extras(const CLI::App& app, const std::vector<std::string>& extras) {
-  const std::string& extra = extras.front();
-  const std::string name = extra.substr(0, extra.find('='));
-  const std::vector<std::string> known = option_names(app);
-  if (!extra.starts_with("-"))
-    throw UsageError(fmt::format("{}: found '{}', expected no further argument", app.get_name(), extra));
-  const std::string near = nearest(name, known);
-  throw UsageError(fmt::format("{}: found the unknown option '{}', expected {}", app.get_name(), name,
-                               near.empty() ? fmt::format("one of {}", fmt::join(known, ", ")) : near));
+/// The options of a command, without the arguments.
+std::vector<const Option*> options_of(const Command& command) {
+  std::vector<const Option*> list;
+  for (const char letter : std::string_view(command.letters))
+    for (const Option& option : options)
+      if (option.letter == letter && !option.positional()) list.push_back(&option);
+  return list;
+}
+
+const Option* argument_of(const Command& command) {
+  for (const char letter : std::string_view(command.letters))
+    for (const Option& option : options)
+      if (option.letter == letter && option.positional()) return &option;
+  return nullptr;
+}
+
+std::string help_line(std::string_view left, std::string_view right) {
+  return fmt::format("  {:<24} {}\n", left, right);
+}
+
+std::string general_help() {
+  std::string text =
+      "gnomon compares integrators for mechanical ODEs and DAEs: accuracy, drift and cost\n"
+      "\nUsage: gnomon COMMAND [options]\n\nCommands:\n";
+  for (const Command& command : commands) text += help_line(command.name, command.help);
+  text += help_line("test", "builds and runs the test suite (only ./gnomon at the top of the repository)");
+  text += "\nOptions:\n" + help_line("--help", "this text, or that of a command: gnomon run --help") +
+          help_line("--version", "") +
+          "\nExit codes: 0 done, 1 a run that was asked for by name failed, 2 bad usage or scene, "
+          "3 interrupted.\n";
+  return text;
+}
+
+std::string command_help(const Command& command) {
+  std::string text = fmt::format("{}\n\nUsage: gnomon {} {}{}[options]\n\n", command.help, command.name,
+                                 command.usage, *command.usage ? " " : "");
+  if (const Option* argument = argument_of(command)) text += help_line(argument->name, argument->help) + "\n";
+  text += "Options:\n";
+  for (const Option* option : options_of(command))
+    text += help_line(fmt::format("{} {}", option->name, option->value), option->help);
+  return text + help_line("--help", "this text");
+}
+
+const Command& find_command(const std::string& name) {
+  for (const Command& command : commands)
+    if (command.name == name) return command;
+  const std::vector<std::string> names = command_names();
+  if (name.starts_with("-"))
+    throw UsageError(fmt::format("found '{}' where the command stands, expected {} (or --help, --version)",
+                                 name, choices_text(names)));
+  const std::string near = nearest(name, names);
+  throw UsageError(fmt::format("found the unknown command '{}', expected {}", name,
+                               near.empty() ? choices_text(names) : near));
+}
+
+const Option& find_option(const Command& command, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Option* option : options_of(command)) {
+    if (option->name == name) return *option;
+    names.emplace_back(option->name);
+  }
+  names.emplace_back("--help");
+  const std::string near = nearest(name, names);
+  throw UsageError(fmt::format("{}: found the unknown option '{}', expected {}", command.name, name,
+                               near.empty() ? choices_text(names) : near));
+}
+
+void take_argument(const Command& command, Request& request, const std::string& text) {
+  const Option* argument = argument_of(command);
+  const Text* single = argument ? std::get_if<Text>(&argument->target) : nullptr;
+  if (!argument || (single && !(request.**single).empty()))
+    throw UsageError(fmt::format("{}: found '{}', expected no further argument", command.name, text));
+  if (text.empty())
+    throw UsageError(fmt::format("{}: found '', expected {}", argument->name, argument->help));
+  if (single)
+    request.** single = text;
+  else
+    (request.*std::get<Texts>(argument->target)).push_back(text);
+}
+
+/// A value of an option; once only, unless the option collects them.
+void take_value(const Option& option, Request& request, const std::string& value) {
+  if (value.empty())
+    throw UsageError(fmt::format("{0}: found no value, expected {0} {1}", option.name, option.value));
+  if (option.letter == 'i' && value.find(',') != std::string::npos)
+    throw UsageError(fmt::format("{}: found '{}', expected the name of one integrator", option.name, value));
+  if (const Texts* several = std::get_if<Texts>(&option.target)) {
+    (request.**several).push_back(value);
+    return;
+  }
+  std::string& target = request.*std::get<Text>(option.target);
+  if (!target.empty())
+    throw UsageError(
+        fmt::format("{}: found twice, as '{}' and '{}', expected once", option.name, target, value));
+  target = value;
+}
+
+/// Reads what follows the command. True if its help was asked for.
+bool read_arguments(const Command& command, const std::vector<std::string>& arguments, Request& request) {
+  bool options_ended = false;
+  for (auto it = arguments.begin(); it != arguments.end(); ++it) {
+    if (options_ended || it->size() < 2 || it->front() != '-') {
+      take_argument(command, request, *it);
+      continue;
+    }
+    if (*it == "--") {
+      options_ended = true;
+      continue;
+    }
+    if (*it == "--help" || *it == "-h") return true;
+    const std::size_t equals = it->find('=');
+    const Option& option = find_option(command, it->substr(0, equals));
+    if (const Switch* flag = std::get_if<Switch>(&option.target)) {
+      if (equals != std::string::npos)
+        throw UsageError(
+            fmt::format("{}: found the value '{}', expected none", option.name, it->substr(equals + 1)));
+      request.** flag = true;
+    } else if (equals != std::string::npos) {
+      take_value(option, request, it->substr(equals + 1));
+    } else {
+      // A value may begin with one dash, as negative numbers and "-" do, but not with two.
+      const auto next = std::next(it);
+      const bool there = next != arguments.end() && !next->starts_with("--");
+      take_value(option, request, there ? *next : "");
+      if (there) it = next;
+    }
+  }
+  return false;
+}
+
+int dispatch(const Catalogue& catalogue, const std::atomic<bool>& stop,
+             const std::vector<std::string>& arguments) {
+  if (arguments.empty())
+    throw UsageError(fmt::format("found no command, expected {} (gnomon --help explains them)",
+                                 choices_text(command_names())));
+  const std::string& first = arguments.front();
+  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  if (first == "--help" || first == "-h" || first == "--version") {
+    if (!rest.empty())
+      throw UsageError(fmt::format("{}: found '{}', expected no further argument", first, rest.front()));
+    fmt::print("{}", first == "--version" ? fmt::format("gnomon {}\n", gnomon_version) : general_help());
+    return done;
+  }
+  const Command& command = find_command(first);
+  Context context{catalogue, stop, {}};
+  if (read_arguments(command, rest, context.request)) {
+    fmt::print("{}", command_help(command));
+    return done;
+  }
+  check_outputs(context.request);
+  return command.run(context);
 }
 
 }  // namespace
 
 int parse_and_run(const Catalogue& catalogue, const std::atomic<bool>& stop, int argc,
                   const char* const* argv) {
-  CLI::App app{"gnomon compares integrators for mechanical ODEs and DAEs: accuracy, drift and cost",
-               "gnomon"};
-  app.set_version_flag("--version", std::string("gnomon ") + gnomon_version);
-  app.footer(
-      "`./gnomon test` builds and runs the test suite. Exit codes: 0 done, 1 a named run failed, 2 bad "
-      "usage, "
-      "3 interrupted.");
-  Context context{catalogue, stop, {}};
-  std::vector<std::string> names;
-  for (const Command& command : commands) {
-    CLI::App* sub = app.add_subcommand(command.name, command.help);
-    sub->allow_extras();
-    add_options(*sub, context.request, command.options);
-    names.emplace_back(command.name);
-  }
-  if (argc < 2) {
-    fmt::print("{}", app.help());
-    return bad_usage;
-  }
-  const std::string first = argv[1];
-  if (!first.starts_with("-") && std::find(names.begin(), names.end(), first) == names.end()) {
-    const std::string near = nearest(first, names);
-    throw UsageError(fmt::format("found the unknown command '{}', expected {}", first,
-                                 near.empty() ? fmt::format("one of {}", fmt::join(names, ", ")) : near));
-  }
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const CLI::ArgumentMismatch& error) {
-    const std::string what = error.what();
-    const std::string option = what.substr(0, what.find(':'));
-    const bool several =
-        what.find("received") != std::string::npos && what.find("At most") != std::string::npos;
-    throw UsageError(
-        fmt::format("{}: found {}, expected one value", option, several ? "several values" : "nothing"));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    return dispatch(catalogue, stop, std::vector<std::string>(argv + std::min(argc, 1), argv + argc));
+  } catch (const UsageError& error) {
+    // What the user wrote stands in the message; whatever it was, the message is one line of text.
+    throw UsageError(output::plain_text(error.what()));
   }
-  for (const Command& command : commands) {
-    const CLI::App* sub = app.get_subcommand(command.name);
-    if (!sub->parsed()) continue;
-    if (const auto extras = sub->remaining(); !extras.empty()) refuse_extras(*sub, extras);
-    check_outputs(context.request);
-    return command.run(context);
-  }
-  throw UsageError(fmt::format("found no command, expected one of {}", fmt::join(names, ", ")));
 }
 
 }  // namespace gnomon::cli

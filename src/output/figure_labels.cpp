@@ -173,11 +173,11 @@ std::optional<GuidePlace> place_guides(Occupied& occupied, const Box& area, cons
     return occupied.is_free(grown(labels, clearance));
   };
 
-  // Large and near the data is easier to compare with than small and far, but nothing may be touched.
-  for (double width = 0.30 * area_width; width >= 18.0; width *= 0.85) {
-    if ((steepest_up - steepest_down) * width > 0.45 * area_height) continue;
-    if (labels_overlap(width)) return std::nullopt;
-    for (const double clearance : {24.0, 14.0, 8.0}) {
+  // Large is easier to compare with than small, but not at the price of standing close to something.
+  for (const double clearance : {14.0, 8.0}) {
+    for (double width = 0.30 * area_width; width >= 18.0; width *= 0.85) {
+      if ((steepest_up - steepest_down) * width > 0.45 * area_height) continue;
+      if (labels_overlap(width)) break;
       for (double x = area.right - width - label_width - clearance; x >= area.left + clearance; x -= 10.0) {
         for (double y = area.bottom + clearance - steepest_down * width; y <= area.top; y += 10.0) {
           if (!fits({x, y}, width, clearance)) continue;

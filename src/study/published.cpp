@@ -14,7 +14,8 @@ output::Table order_matrix(const std::vector<Convergence>& studies) {
   std::vector<const SchemeInfo*> schemes;
   for (const Convergence& study : studies)
     for (const OrderRow& row : study.orders)
-      if (std::find(schemes.begin(), schemes.end(), row.scheme) == schemes.end()) schemes.push_back(row.scheme);
+      if (std::find(schemes.begin(), schemes.end(), row.scheme) == schemes.end())
+        schemes.push_back(row.scheme);
   for (const SchemeInfo* scheme : schemes)
     table.columns.push_back({std::string(scheme->name), std::string(scheme->name)});
   for (const Convergence& study : studies) {
@@ -33,12 +34,14 @@ output::Table order_matrix(const std::vector<Convergence>& studies) {
     }
     table.rows.push_back(std::move(cells));
   }
-  table.notes.push_back("windowed robust slope; — no asymptotic range; in brackets the declared order where it differs");
+  table.notes.push_back(
+      "windowed robust slope; — no asymptotic range; in brackets the declared order where it differs");
   return table;
 }
 
 std::string replace_section(const std::string& document, const std::string& name, const std::string& text) {
-  const std::string begin = fmt::format("<!-- begin {} -->", name), end = fmt::format("<!-- end {} -->", name);
+  const std::string begin = fmt::format("<!-- begin {} -->", name),
+                    end = fmt::format("<!-- end {} -->", name);
   const std::size_t from = document.find(begin), to = document.find(end);
   if (from == std::string::npos || to == std::string::npos || to < from) return document;
   return document.substr(0, from + begin.size()) + "\n" + text + document.substr(to);

@@ -7,12 +7,12 @@
 
 namespace gnomon {
 
-/// Observed orders in the first metric, scenes by schemes, the declared order in brackets where the observed one is
-/// more than 0.1 away from it.
+/// Observed orders in the first metric, scenes by schemes, the declared order in brackets where the observed
+/// one is more than 0.1 away from it.
 output::Table order_matrix(const std::vector<Convergence>& studies);
 
-/// Puts generated text between the marks `<!-- begin NAME -->` and `<!-- end NAME -->` of a document; a document
-/// without them comes back unchanged.
+/// Puts generated text between the marks `<!-- begin NAME -->` and `<!-- end NAME -->` of a document; a
+/// document without them comes back unchanged.
 std::string replace_section(const std::string& document, const std::string& name, const std::string& text);
 
 }  // namespace gnomon

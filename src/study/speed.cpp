@@ -7,7 +7,8 @@
 namespace gnomon {
 namespace {
 
-// Long enough for a step's share of the start to vanish, short enough to stay in the cache's and clock's quiet.
+// Long enough for a step's share of the start to vanish, short enough to stay in the cache's and clock's
+// quiet.
 constexpr long steps_a_run = 100'000;
 
 WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
@@ -27,13 +28,12 @@ WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
   for (std::size_t k = 0; k < plain.size(); ++k)
     time.difference = std::max(time.difference, std::abs(plain[k] - wrapped.state[k]));
 
-  const std::vector<TimedTask> tasks{
-      {[&] { return run(model, spec).cpu_seconds; }},
-      {[&] {
-        std::vector<double> state;
-        long evaluations = 0;
-        return yardstick.run(model, spec.t_end, yardstick.tol, state, evaluations);
-      }}};
+  const std::vector<TimedTask> tasks{{[&] { return run(model, spec).cpu_seconds; }}, {[&] {
+                                       std::vector<double> state;
+                                       long evaluations = 0;
+                                       return yardstick.run(model, spec.t_end, yardstick.tol, state,
+                                                            evaluations);
+                                     }}};
   TimingPlan plan;
   plan.repetitions = 11;
   plan.timer_cost = timer_cost();
@@ -64,7 +64,8 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
       const auto run = runner.catalogue().pair(scheme->name, *scenes.back().model)->run;
       const std::shared_ptr<const AnyModel> model = scenes.back().model;
       tasks.push_back({[=] { return run(model->get(), spec).cpu_seconds; }});
-      study.steps.push_back({plan.scene, std::string(model->load_class()), scheme, plan.step, steps_a_run, {}});
+      study.steps.push_back(
+          {plan.scene, std::string(model->load_class()), scheme, plan.step, steps_a_run, {}});
     }
   }
   TimingPlan plan;
@@ -72,7 +73,8 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
   plan.timer_cost = timer_cost();
   const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
   for (std::size_t k = 0; k < stats.size(); ++k) study.steps[k].run = stats[k];
-  for (const Yardstick& yardstick : runner.catalogue().yardsticks) study.wrappers.push_back(measure(runner, yardstick));
+  for (const Yardstick& yardstick : runner.catalogue().yardsticks)
+    study.wrappers.push_back(measure(runner, yardstick));
   return study;
 }
 
@@ -91,10 +93,12 @@ output::Table step_times_table(const SpeedStudy& study) {
     output::Cell median = output::number_cell(time.ns());
     median.text += unstable_mark(time.run);
     table.rows.push_back({std::string(time.scheme->name), time.scene, time.load, median,
-                          output::number_cell(scale * time.run.min), output::number_cell(scale * time.run.max),
+                          output::number_cell(scale * time.run.min),
+                          output::number_cell(scale * time.run.max),
                           output::count_cell(time.run.repetitions)});
   }
-  table.notes.push_back(fmt::format("runs of {} steps, interleaved; * repetitions differ by more than 5 %", steps_a_run));
+  table.notes.push_back(
+      fmt::format("runs of {} steps, interleaved; * repetitions differ by more than 5 %", steps_a_run));
   return table;
 }
 
@@ -111,11 +115,12 @@ output::Table wrapper_table(const SpeedStudy& study) {
                    {"plain_evaluations", "in plain C"},
                    {"difference", "difference of the results"}};
   for (const WrapperTime& time : study.wrappers)
-    table.rows.push_back({std::string(time.yardstick->integrator), std::string(time.yardstick->scene),
-                          output::number_cell(time.yardstick->tol, 1), output::number_cell(1e6 * time.wrapped.median, 4),
-                          output::number_cell(1e6 * time.plain.median, 4), output::number_cell(time.ratio(), 3),
-                          output::count_cell(time.evaluations), output::count_cell(time.plain_evaluations),
-                          output::number_cell(time.difference, 2)});
+    table.rows.push_back(
+        {std::string(time.yardstick->integrator), std::string(time.yardstick->scene),
+         output::number_cell(time.yardstick->tol, 1), output::number_cell(1e6 * time.wrapped.median, 4),
+         output::number_cell(1e6 * time.plain.median, 4), output::number_cell(time.ratio(), 3),
+         output::count_cell(time.evaluations), output::count_cell(time.plain_evaluations),
+         output::number_cell(time.difference, 2)});
   table.notes.push_back("medians of 11 interleaved repetitions; the ratio is that of the medians");
   return table;
 }
@@ -123,13 +128,19 @@ output::Table wrapper_table(const SpeedStudy& study) {
 nlohmann::ordered_json speed_json(const SpeedStudy& study) {
   nlohmann::ordered_json json;
   for (const StepTime& time : study.steps)
-    json["steps"].push_back({{"integrator", time.scheme->name}, {"scene", time.scene}, {"step", time.step},
-                             {"ns_median", time.ns()}, {"repetitions", time.run.repetitions},
+    json["steps"].push_back({{"integrator", time.scheme->name},
+                             {"scene", time.scene},
+                             {"step", time.step},
+                             {"ns_median", time.ns()},
+                             {"repetitions", time.run.repetitions},
                              {"unstable", time.run.unstable}});
   for (const WrapperTime& time : study.wrappers)
-    json["wrappers"].push_back({{"integrator", time.yardstick->integrator}, {"scene", time.yardstick->scene},
-                                {"ratio", time.ratio()}, {"evaluations", time.evaluations},
-                                {"plain_evaluations", time.plain_evaluations}, {"difference", time.difference}});
+    json["wrappers"].push_back({{"integrator", time.yardstick->integrator},
+                                {"scene", time.yardstick->scene},
+                                {"ratio", time.ratio()},
+                                {"evaluations", time.evaluations},
+                                {"plain_evaluations", time.plain_evaluations},
+                                {"difference", time.difference}});
   return json;
 }
 

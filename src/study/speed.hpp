@@ -14,18 +14,18 @@ struct StepTime {
   std::string scene;
   std::string load;
   const SchemeInfo* scheme;
-  double step;        ///< s
-  long steps;         ///< a run
-  TimingStats run;    ///< of the whole run, s
+  double step;      ///< s
+  long steps;       ///< a run
+  TimingStats run;  ///< of the whole run, s
   double ns() const { return 1e9 * run.median / static_cast<double>(steps); }
 };
 
 /// An integrator of gnomon against the same integration written without it.
 struct WrapperTime {
   const Yardstick* yardstick;
-  long evaluations;         ///< of gnomon's run
+  long evaluations;  ///< of gnomon's run
   long plain_evaluations;
-  double difference;        ///< largest difference of the two final states, 0 where they are bitwise equal
+  double difference;  ///< largest difference of the two final states, 0 where they are bitwise equal
   TimingStats wrapped, plain;
   double ratio() const { return wrapped.median / plain.median; }
 };

@@ -34,14 +34,16 @@ StudyPlan read_study(const std::string& path) {
     DriftPlan drift;
     drift.scene = section.text("scene", "a scene's name");
     drift.t_end = section.positive("t_end", "a positive number (s)");
-    if (section.has("quick_t_end")) drift.quick_t_end = section.positive("quick_t_end", "a positive number (s)");
+    if (section.has("quick_t_end"))
+      drift.quick_t_end = section.positive("quick_t_end", "a positive number (s)");
     drift.step = section.positive("step", "a positive number (s)");
     drift.tol = section.positive("tol", "a tolerance");
     drift.integrators = texts(entry, "integrators");
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](const toml::table&, Section section) {
-    plan.speed.push_back({section.text("scene", "a scene's name"), section.positive("step", "a positive number (s)")});
+    plan.speed.push_back(
+        {section.text("scene", "a scene's name"), section.positive("step", "a positive number (s)")});
   });
   return plan;
 }

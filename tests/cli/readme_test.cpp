@@ -15,8 +15,10 @@ std::vector<std::string> commands_of_readme() {
   std::vector<std::string> commands;
   bool shell = false;
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("```")) shell = line == "```sh";
-    else if (shell && line.starts_with("./gnomon ")) commands.push_back(line.substr(9));
+    if (line.starts_with("```"))
+      shell = line == "```sh";
+    else if (shell && line.starts_with("./gnomon "))
+      commands.push_back(line.substr(9));
   }
   return commands;
 }
@@ -32,7 +34,8 @@ TEST_CASE("cli: the README's examples work as printed", "[cli]") {
   fs::create_directories(folder);
   for (const std::string& command : commands) {
     INFO(command);
-    const std::string line = "cd '" + folder.string() + "' && '" GNOMON_PROGRAM "' " + command + " >out.txt 2>err.txt";
+    const std::string line =
+        "cd '" + folder.string() + "' && '" GNOMON_PROGRAM "' " + command + " >out.txt 2>err.txt";
     CHECK(std::system(line.c_str()) == 0);
     CHECK(fs::file_size(folder / "out.txt") > 0);
   }
