@@ -10,6 +10,7 @@
 #include <toml++/toml.h>
 
 #include "src/error.hpp"
+#include "src/nearest.hpp"
 
 namespace gnomon {
 
@@ -69,11 +70,5 @@ class Section {
   const SceneSource* source_;
   std::vector<std::string> known_;
 };
-
-/// The known word nearest to a misspelt one, or empty when none is near: more than a third of the letters
-/// differ, an exchange of two neighbours counted once.
-std::string nearest(std::string_view word, const std::vector<std::string>& known);
-/// "one of a, b, c", or just "a".
-std::string choices_text(const std::vector<std::string>& choices);
 
 }  // namespace gnomon

@@ -169,10 +169,12 @@ void check_outputs(const Request& request) {
   if (request.out.empty()) return;
   // Folders that are not there are made in the first one above them that is.
   std::error_code code;
-  fs::path existing = fs::absolute(request.out, code);
+  const fs::path asked = fs::absolute(request.out, code);
+  fs::path existing = asked;
   while (!fs::exists(existing, code) && existing.has_relative_path()) existing = existing.parent_path();
   if (!fs::is_directory(existing, code))
-    throw UsageError(fmt::format("--out: found the file '{}', expected a folder", request.out));
+    throw UsageError(fmt::format("--out: found the file '{}', expected a folder",
+                                 existing == asked ? request.out : existing.string()));
   if (!writable(existing)) refuse("--out", request.out, "a folder that can be written");
 }
 
@@ -221,14 +223,14 @@ void check_ladders(const Context& context, const std::vector<Scene>& scenes, con
       if (!other_used)
         throw UsageError(fmt::format("{}: found '{}', expected nothing because only closed forms are to run",
                                      option, text));
-      throw UsageError(fmt::format("{}: found '{}', expected {} because every chosen integrator {}", option,
+      throw UsageError(fmt::format("{}: found '{}', expected {} because no chosen integrator {}", option,
                                    text, other, because));
     };
-    const char *own = "chooses its own steps", *equal = "takes equal steps";
-    check(request.step, "--step", fixed, adaptive, "--tol", own);
-    check(request.steps, "--steps", fixed, adaptive, "--tols", own);
-    check(request.tol, "--tol", adaptive, fixed, "--step", equal);
-    check(request.tols, "--tols", adaptive, fixed, "--steps", equal);
+    const char *equal = "takes equal steps", *own = "chooses its own steps";
+    check(request.step, "--step", fixed, adaptive, "--tol", equal);
+    check(request.steps, "--steps", fixed, adaptive, "--tols", equal);
+    check(request.tol, "--tol", adaptive, fixed, "--step", own);
+    check(request.tols, "--tols", adaptive, fixed, "--steps", own);
   }
 }
 

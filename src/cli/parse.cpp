@@ -10,7 +10,7 @@
 #include "src/environment.hpp"
 #include "src/error.hpp"
 #include "src/output/text.hpp"
-#include "src/scene_reader.hpp"
+#include "src/nearest.hpp"
 
 namespace gnomon::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "src/error.hpp"
-#include "src/scene_reader.hpp"
+#include "src/nearest.hpp"
 
 namespace gnomon {
 

@@ -98,6 +98,11 @@ struct ExactSteps {
   static BodyState view(const RigidBody<Free>&, const BodyState& state) { return state; }
   static Cost cost(const RigidBody<Free>&, const BodyState&, long steps) { return {.steps = steps}; }
   static Status step(const RigidBody<Free>& model, BodyState& state, double, double h) {
+    advance(model, state, h);
+    return Status::ok;
+  }
+  // Not to be inlined into the driver's loop, which would take the compiler minutes.
+  [[gnu::noinline]] static void advance(const RigidBody<Free>& model, BodyState& state, double h) {
     const rigid_body::ExactFreeTop<long double> top(
         model.inertia().cast<long double>(),
         rigid_body::unit_quaternion(state.attitude).cast<long double>().normalized(),
@@ -105,7 +110,6 @@ struct ExactSteps {
     const auto next = top.at(h);
     state = {next.orientation.normalized().toRotationMatrix().cast<double>(),
              next.angular_momentum.cast<double>()};
-    return Status::ok;
   }
 };
 
