@@ -101,10 +101,9 @@ class Recorder {
   std::size_t count_ = 0;
 };
 
-/// The inner loop, from step n to step `to`. Stops at the first step that fails. Everything is inlined into
-/// it: a call in the middle of a step costs more than the step.
+/// The inner loop, from step n to step `to`. Stops at the first step that fails.
 template <Model M, FixedStepOn<M> S>
-[[gnu::noinline, gnu::flatten]] Status march(const M& model, typename S::template State<M>& state, long& n,
+[[gnu::noinline]] Status march(const M& model, typename S::template State<M>& state, long& n,
                                              long to, double h) {
   for (; n < to; ++n) {
     const Status status = S::step(model, state, static_cast<double>(n) * h, h);

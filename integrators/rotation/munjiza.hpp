@@ -50,8 +50,9 @@ struct TriadStep {
     return cost;
   }
 
+  /// Everything is inlined into a step: a call in the middle would cost more than what it does.
   template <RotationForm M>
-  static Status step(const M& model, TriadState& state, double t, double h) {
+  [[gnu::flatten]] static Status step(const M& model, TriadState& state, double t, double h) {
     const Matrix3& A = state.attitude;
     const Vector3 inverse = model.inertia().cwiseInverse();
     const auto velocity = [&](const Rotation& stage, const Vector3& momentum) -> Vector3 {
