@@ -184,7 +184,7 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
     root.fail("t_end", found, expected);
   }
   for (const std::string& warning : parsed.warnings)
-    scene.warnings.push_back(fmt::format("{}: {}", source.file, warning));
+    scene.warnings.push_back(output::plain_text(fmt::format("{}: {}", source.file, warning)));
   scene.resolved["name"] = scene.name;
   scene.resolved["model"] = scene.model_name;
   if (!scene.description.empty()) scene.resolved["description"] = scene.description;

@@ -14,7 +14,6 @@
 
 #include "src/error.hpp"
 #include "src/output/files.hpp"
-#include "src/output/text.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -144,8 +143,7 @@ std::vector<Scene> load_scenes(const Context& context) {
     throw UsageError("SCENE: found nothing, expected the name of a shipped scene or a .toml file");
   check_steps(context.request, scenes);
   for (const Scene& scene : scenes)
-    for (const std::string& warning : scene.warnings)
-      std::cerr << "gnomon: warning: " << output::plain_text(warning) << '\n';
+    for (const std::string& warning : scene.warnings) std::cerr << "gnomon: warning: " << warning << '\n';
   return scenes;
 }
 

@@ -9,8 +9,8 @@
 #include "src/cli/command.hpp"
 #include "src/environment.hpp"
 #include "src/error.hpp"
-#include "src/output/text.hpp"
 #include "src/nearest.hpp"
+#include "src/output/text.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -63,6 +63,7 @@ struct Command {
   const char* help;
   const char* letters;  ///< of its options, in the order of the help
   int (*run)(Context&);
+  const char* out = "";  ///< default of --out
 };
 
 constexpr Command commands[] = {
@@ -72,7 +73,7 @@ constexpr Command commands[] = {
     {"converge", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
      "error against step or tolerance, observed order", "SIhteaxlnjcoRMqQ", converge},
     {"compare", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
-     "work-precision: error against CPU time and evaluations", "SIhteaxlnjcoRMqQ", compare},
+     "work-precision: error against CPU time and evaluations", "SIhteaxlnjcoRMqQ", compare, "gnomon-out"},
     {"drift", "SCENE.. [--integrators A,B,..] [--step H] [--tol X] [--t-end T]", "invariants over a long run",
      "SIHTeaxlnjcoRMQ", drift},
     {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", "oqFQ", bench},
@@ -125,7 +126,9 @@ std::string command_help(const Command& command) {
   text += "Options:\n";
   for (const Option* option : options_of(command))
     text += help_line(fmt::format("{} {}", option->name, option->value), option->help);
-  return text + help_line("--help", "this text");
+  text += help_line("--help", "this text");
+  return *command.out ? text + fmt::format("\nWithout --out, {} writes to {}.\n", command.name, command.out)
+                      : text;
 }
 
 const Command& find_command(const std::string& name) {
@@ -234,6 +237,7 @@ int dispatch(const Catalogue& catalogue, const std::atomic<bool>& stop,
     fmt::print("{}", command_help(command));
     return done;
   }
+  if (context.request.out.empty()) context.request.out = command.out;
   check_outputs(context.request);
   return command.run(context);
 }

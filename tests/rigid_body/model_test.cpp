@@ -20,11 +20,9 @@ constexpr double eps = 2.220446049250313e-16;
 const double pi = std::acos(-1.0);
 
 class Random {
-public:
+ public:
   explicit Random(unsigned seed) : generator_(seed) {}
-  double uniform() {
-    return 2.0 * static_cast<double>(generator_() >> 11) * 0x1p-53 - 1.0;
-  }
+  double uniform() { return 2.0 * static_cast<double>(generator_() >> 11) * 0x1p-53 - 1.0; }
   Vector3d vector() {
     const double x = uniform(), y = uniform(), z = uniform();
     return {x, y, z};
@@ -38,14 +36,15 @@ public:
     return {attitude, 2.0 * vector()};
   }
 
-private:
+ private:
   std::mt19937_64 generator_;
 };
 
 const Vector3d inertia(0.6, 1.7, 1.1);
 
 /// Calls `body(model)` with a body of each load.
-template <class Body> void for_each_load(Body &&body) {
+template <class Body>
+void for_each_load(Body&& body) {
   Random random(11);
   const BodyState initial = random.state();
   body(RigidBody<Free>(inertia, initial, {}, 3.0));
@@ -57,8 +56,7 @@ template <class Body> void for_each_load(Body &&body) {
 // Largest difference of an analytic derivative and the central differences of
 // f, relative to the largest entry.
 template <class F>
-double jacobian_error(const F &f, const Eigen::MatrixXd &analytic,
-                      Eigen::VectorXd y) {
+double jacobian_error(const F& f, const Eigen::MatrixXd& analytic, Eigen::VectorXd y) {
   Eigen::MatrixXd numeric(analytic.rows(), analytic.cols());
   for (int k = 0; k < y.size(); ++k) {
     const double at = y[k], step = 1e-5;
@@ -68,17 +66,14 @@ double jacobian_error(const F &f, const Eigen::MatrixXd &analytic,
     numeric.col(k) = (plus - f(y)) / (2.0 * step);
     y[k] = at;
   }
-  return (numeric - analytic).cwiseAbs().maxCoeff() /
-         analytic.cwiseAbs().maxCoeff();
+  return (numeric - analytic).cwiseAbs().maxCoeff() / analytic.cwiseAbs().maxCoeff();
 }
 
 template <class Form>
-void check_dae_jacobian(const Form &form, Random &random) {
+void check_dae_jacobian(const Form& form, Random& random) {
   Eigen::VectorXd y(8), rate(8);
-  for (int k = 0; k < 8; ++k)
-    y[k] = random.uniform(), rate[k] = random.uniform();
-  const auto residual = [&](const Eigen::VectorXd &at,
-                            const Eigen::VectorXd &rate_at) {
+  for (int k = 0; k < 8; ++k) y[k] = random.uniform(), rate[k] = random.uniform();
+  const auto residual = [&](const Eigen::VectorXd& at, const Eigen::VectorXd& rate_at) {
     Eigen::VectorXd value(8);
     form.residual(0.0, at.data(), rate_at.data(), value.data());
     return value;
@@ -87,7 +82,7 @@ void check_dae_jacobian(const Form &form, Random &random) {
     Eigen::Matrix<double, 8, 8> J;
     form.jacobian(0.0, cj, y.data(), rate.data(), J.data());
     // dF/dy + cj dF/dy' is the derivative of F(y + x, y' + cj x) by x.
-    const auto shifted = [&](const Eigen::VectorXd &x) {
+    const auto shifted = [&](const Eigen::VectorXd& x) {
       return residual(Eigen::VectorXd(y + x), Eigen::VectorXd(rate + cj * x));
     };
     CHECK(jacobian_error(shifted, J, Eigen::VectorXd::Zero(8)) <= 1e-9);
@@ -96,23 +91,21 @@ void check_dae_jacobian(const Form &form, Random &random) {
   }
 }
 
-bool same_bits(const std::vector<double> &a, const std::vector<double> &b) {
-  return a.size() == b.size() &&
-         std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
 }
 
-} // namespace
+}  // namespace
 
 TEST_CASE("rigid body: Jacobian of the ODE form", "[rigid_body]") {
   Random random(1);
-  for_each_load([&](const auto &model) {
+  for_each_load([&](const auto& model) {
     const auto form = model.ode();
     for (int k = 0; k < 50; ++k) {
       // Quaternions of any norm: a solver's stages leave the unit sphere.
       Eigen::VectorXd y(7);
-      for (int i = 0; i < 7; ++i)
-        y[i] = 1.5 * random.uniform();
-      const auto rhs = [&](const Eigen::VectorXd &at) {
+      for (int i = 0; i < 7; ++i) y[i] = 1.5 * random.uniform();
+      const auto rhs = [&](const Eigen::VectorXd& at) {
         Eigen::VectorXd rate(7);
         form.rhs(0.0, at.data(), rate.data());
         return rate;
@@ -129,7 +122,7 @@ TEST_CASE("rigid body: Jacobian of the ODE form", "[rigid_body]") {
 
 TEST_CASE("rigid body: Jacobians of the DAE forms", "[rigid_body]") {
   Random random(2);
-  for_each_load([&](const auto &model) {
+  for_each_load([&](const auto& model) {
     for (int k = 0; k < 20; ++k) {
       check_dae_jacobian(model.dae(), random);
       check_dae_jacobian(model.dae_index2(), random);
@@ -139,20 +132,18 @@ TEST_CASE("rigid body: Jacobians of the DAE forms", "[rigid_body]") {
 
 TEST_CASE("rigid body: the DAE forms start consistently", "[rigid_body]") {
   Random random(3);
-  for_each_load([&](const auto &model) {
+  for_each_load([&](const auto& model) {
     for (int k = 0; k < 20; ++k) {
       const BodyState state = random.state();
       double y[8], rate[8], value[8], ode_rate[7];
-      const auto check = [&](const auto &form) {
+      const auto check = [&](const auto& form) {
         form.pack(state, y, rate);
         form.residual(0.0, y, rate, value);
-        for (double v : value)
-          CHECK(std::abs(v) <= 4.0 * eps);
+        for (double v : value) CHECK(std::abs(v) <= 4.0 * eps);
         CHECK(y[7] == 0.0);
         CHECK(rate[7] == 0.0);
         // The hidden constraint q.q' = 0.
-        CHECK(std::abs(y[0] * rate[0] + y[1] * rate[1] + y[2] * rate[2] +
-                       y[3] * rate[3]) <= 8.0 * eps);
+        CHECK(std::abs(y[0] * rate[0] + y[1] * rate[1] + y[2] * rate[2] + y[3] * rate[3]) <= 8.0 * eps);
         model.ode().rhs(0.0, y, ode_rate);
         CHECK(std::memcmp(ode_rate, rate, sizeof ode_rate) == 0);
         // A multiplier shows in the residual: as mu' where it is stabilised,
@@ -160,21 +151,19 @@ TEST_CASE("rigid body: the DAE forms start consistently", "[rigid_body]") {
         const bool stabilised = form.algebraic()[7] == 0;
         (stabilised ? rate : y)[7] = 1.0;
         form.residual(0.0, y, rate, value);
-        for (int i = 0; i < 4; ++i)
-          CHECK(std::abs(value[i] + y[i]) <= 4.0 * eps);
+        for (int i = 0; i < 4; ++i) CHECK(std::abs(value[i] + y[i]) <= 4.0 * eps);
       };
       check(model.dae());
       check(model.dae_index2());
     }
     CHECK(model.dae().algebraic() == std::vector<int>(8, 0));
-    CHECK(model.dae_index2().algebraic() ==
-          std::vector<int>{0, 0, 0, 0, 0, 0, 0, 1});
+    CHECK(model.dae_index2().algebraic() == std::vector<int>{0, 0, 0, 0, 0, 0, 0, 1});
   });
 }
 
 TEST_CASE("rigid body: rates in double and in long double", "[rigid_body]") {
   Random random(4);
-  for_each_load([&](const auto &model) {
+  for_each_load([&](const auto& model) {
     for (int k = 0; k < 200; ++k) {
       double y[7], rate[7];
       long double wide[7], wide_rate[7];
@@ -182,38 +171,32 @@ TEST_CASE("rigid body: rates in double and in long double", "[rigid_body]") {
       std::copy(y, y + 7, wide);
       model.ode().rhs(0.0, y, rate);
       model.extended_rhs(0.0L, wide, wide_rate);
-      for (int i = 0; i < 7; ++i)
-        CHECK(std::abs(static_cast<double>(rate[i] - wide_rate[i])) <=
-              32.0 * eps);
+      for (int i = 0; i < 7; ++i) CHECK(std::abs(static_cast<double>(rate[i] - wide_rate[i])) <= 32.0 * eps);
     }
   });
 }
 
-TEST_CASE("rigid body: the ODE form has the moment of the attitude form",
-          "[rigid_body]") {
+TEST_CASE("rigid body: the ODE form has the moment of the attitude form", "[rigid_body]") {
   Random random(5);
-  for_each_load([&](const auto &model) {
+  for_each_load([&](const auto& model) {
     for (int k = 0; k < 50; ++k) {
       const BodyState state = random.state();
       double y[7], rate[7];
       model.ode().pack(state, y);
       model.ode().rhs(0.0, y, rate);
-      const Vector3d &m = state.angular_momentum;
+      const Vector3d& m = state.angular_momentum;
       const Vector3d w = m.cwiseQuotient(inertia);
       // m' = m x w + tau, so A tau is the moment in space: the rate of H = A m.
       const Vector3d tau = Vector3d(rate[4], rate[5], rate[6]) - m.cross(w);
       const Vector3d moment = model.moment(0.0, state.attitude);
       CHECK((state.attitude * tau - moment).norm() <= 32.0 * eps);
-      if (model.load_class() != "none")
-        CHECK(moment.norm() >= 0.01);
+      if (model.load_class() != "none") CHECK(moment.norm() >= 0.01);
       // A' = A hat(w), by a central difference of the quaternion's motion.
       const double step = 1e-5;
       double forth[7], back[7];
-      for (int i = 0; i < 7; ++i)
-        forth[i] = y[i] + step * rate[i], back[i] = y[i] - step * rate[i];
-      const Matrix3d turning = (model.ode().unpack(forth).attitude -
-                                model.ode().unpack(back).attitude) /
-                               (2.0 * step);
+      for (int i = 0; i < 7; ++i) forth[i] = y[i] + step * rate[i], back[i] = y[i] - step * rate[i];
+      const Matrix3d turning =
+          (model.ode().unpack(forth).attitude - model.ode().unpack(back).attitude) / (2.0 * step);
       Matrix3d hat;
       hat << 0.0, -w[2], w[1], w[2], 0.0, -w[0], -w[1], w[0], 0.0;
       CHECK((turning - state.attitude * hat).cwiseAbs().maxCoeff() <= 1e-9);
@@ -224,56 +207,46 @@ TEST_CASE("rigid body: the ODE form has the moment of the attitude form",
 TEST_CASE("rigid body: gravity derives from its potential", "[rigid_body]") {
   // V = W (A c).e3, and a small turn a in space changes it by -M.a.
   Random random(6);
-  const RigidBody<Gravity> model(inertia, random.state(),
-                                 {2.0, {0.3, -0.4, 0.5}}, 1.0);
+  const RigidBody<Gravity> model(inertia, random.state(), {2.0, {0.3, -0.4, 0.5}}, 1.0);
   for (int k = 0; k < 50; ++k) {
     const Matrix3d A = random.orientation().toRotationMatrix();
     const Vector3d a = random.vector().normalized();
     const auto potential = [&](double angle) {
-      return 2.0 * (AngleAxisd(angle, a).toRotationMatrix() * A *
-                    model.load().centre)[2];
+      return 2.0 * (AngleAxisd(angle, a).toRotationMatrix() * A * model.load().centre)[2];
     };
     const double slope = (potential(1e-5) - potential(-1e-5)) / 2e-5;
     CHECK(std::abs(slope + model.moment(0.0, A).dot(a)) <= 1e-9);
   }
 }
 
-TEST_CASE("rigid body: states survive flattening, packing and unpacking",
-          "[rigid_body]") {
+TEST_CASE("rigid body: states survive flattening, packing and unpacking", "[rigid_body]") {
   Random random(7);
-  for_each_load([&](const auto &model) {
+  for_each_load([&](const auto& model) {
     for (int k = 0; k < 100; ++k) {
       BodyState state = random.state();
-      if (k == 0)
-        state.attitude(0, 1) = -0.0, state.angular_momentum[2] = 5e-324;
+      if (k == 0) state.attitude(0, 1) = -0.0, state.angular_momentum[2] = 5e-324;
       const std::vector<double> flat = model.flatten(state);
       REQUIRE(flat.size() == 12);
       CHECK(same_bits(flat, model.flatten(model.restore(flat))));
       CHECK(flat[1] == state.attitude(1, 0));
-      if (k == 0)
-        continue;
+      if (k == 0) continue;
       double y[8], rate[8];
       model.ode().pack(state, y);
       CHECK(y[0] >= 0.0);
       const BodyState unpacked = model.ode().unpack(y);
-      CHECK((unpacked.attitude - state.attitude).cwiseAbs().maxCoeff() <=
-            4.0 * eps);
+      CHECK((unpacked.attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * eps);
       CHECK(unpacked.angular_momentum == state.angular_momentum);
       model.dae().pack(state, y, rate);
-      CHECK((model.dae().unpack(y).attitude - state.attitude)
-                .cwiseAbs()
-                .maxCoeff() <= 4.0 * eps);
+      CHECK((model.dae().unpack(y).attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * eps);
     }
   });
 }
 
-TEST_CASE("rigid body: the norm of a quaternion stays visible",
-          "[rigid_body]") {
+TEST_CASE("rigid body: the norm of a quaternion stays visible", "[rigid_body]") {
   // A solver that lets |q| drift must not have it hidden by a normalisation.
-  for_each_load([&](const auto &model) {
+  for_each_load([&](const auto& model) {
     double y[7] = {0.5, -0.5, 0.5, 0.5, 1.0, 2.0, 3.0};
-    for (int k = 0; k < 4; ++k)
-      y[k] *= 1.0 + 1e-6;
+    for (int k = 0; k < 4; ++k) y[k] *= 1.0 + 1e-6;
     std::vector<double> values(16);
     model.invariants(0.0, model.ode().unpack(y), values.data());
     REQUIRE(model.invariant_info().front().name == "orthonormality");
@@ -284,15 +257,13 @@ TEST_CASE("rigid body: the norm of a quaternion stays visible",
 TEST_CASE("rigid body: distances", "[rigid_body]") {
   Random random(8);
   const RigidBody<Free> model(inertia, random.state(), {}, 1.0);
-  const double angles[] = {0.0, 1e-15,     1e-12,     1e-8,       1e-3, 1.0,
-                           2.0, pi - 1e-3, pi - 1e-8, pi - 1e-12, pi};
+  const double angles[] = {0.0, 1e-15, 1e-12, 1e-8, 1e-3, 1.0, 2.0, pi - 1e-3, pi - 1e-8, pi - 1e-12, pi};
   for (int k = 0; k < 200; ++k) {
     const Quaterniond q = random.orientation();
     const Vector3d axis = random.vector().normalized(), other = random.vector();
     for (double angle : angles) {
       const Quaterniond turned = q * Quaterniond(AngleAxisd(angle, axis));
-      const BodyState a{q.toRotationMatrix(), other},
-          b{turned.toRotationMatrix(), other};
+      const BodyState a{q.toRotationMatrix(), other}, b{turned.toRotationMatrix(), other};
       // The matrices are rounded.
       CHECK(std::abs(model.distance(a, b)[0] - angle) <= 8.0 * eps);
       CHECK(std::abs(model.distance(b, a)[0] - angle) <= 8.0 * eps);
@@ -302,30 +273,23 @@ TEST_CASE("rigid body: distances", "[rigid_body]") {
   }
   // Momentum: relative to the larger of the initial and the reference's own.
   const double start = model.initial().angular_momentum.norm();
-  const BodyState a = model.initial(),
-                  small{a.attitude, 0.5 * a.angular_momentum},
+  const BodyState a = model.initial(), small{a.attitude, 0.5 * a.angular_momentum},
                   large{a.attitude, 3.0 * a.angular_momentum};
   CHECK(std::abs(model.distance(a, small)[1] - 0.5) <= 4.0 * eps);
   CHECK(std::abs(model.distance(a, large)[1] - 2.0 / 3.0) <= 4.0 * eps);
-  CHECK(std::abs(model.distance(
-                     {a.attitude, a.angular_momentum + Vector3d(start, 0, 0)},
-                     a)[1] -
-                 1.0) <= 4.0 * eps);
+  CHECK(std::abs(model.distance({a.attitude, a.angular_momentum + Vector3d(start, 0, 0)}, a)[1] - 1.0) <=
+        4.0 * eps);
 }
 
-TEST_CASE(
-    "rigid body: invariants are constant along the exact motion of every scene",
-    "[rigid_body]") {
+TEST_CASE("rigid body: invariants are constant along the exact motion of every scene", "[rigid_body]") {
   const Catalogue catalogue = full_catalogue();
   int scenes = 0;
-  for (const ShippedScene &shipped : shipped_scenes(catalogue)) {
+  for (const ShippedScene& shipped : shipped_scenes(catalogue)) {
     const Scene scene = load_scene(catalogue, shipped.name);
-    if (scene.model_name != "rigid_body")
-      continue;
+    if (scene.model_name != "rigid_body") continue;
     ++scenes;
     std::vector<double> times;
-    for (int k = 0; k <= 8; ++k)
-      times.push_back(scene.t_end * k / 8);
+    for (int k = 0; k <= 8; ++k) times.push_back(scene.t_end * k / 8);
     const ReferenceStates reference = scene.model->reference(times);
     REQUIRE(!reference.kind.empty());
     // Drifts of all invariants, with the momentum as it is or the wrong way
@@ -335,21 +299,19 @@ TEST_CASE(
       for (std::size_t k = 0; k < times.size(); ++k) {
         std::vector<double> state = reference.states[k];
         if (k > 0)
-          for (std::size_t i = 9; i < 12; ++i)
-            state[i] *= sign;
+          for (std::size_t i = 9; i < 12; ++i) state[i] *= sign;
         const auto values = scene.model->invariants(times[k], state);
         trace.values.insert(trace.values.end(), values.begin(), values.end());
       }
       return summarise_invariants(*scene.model, trace);
     };
     INFO(shipped.name);
-    for (const InvariantSummary &summary : drifts(1.0)) {
+    for (const InvariantSummary& summary : drifts(1.0)) {
       INFO(summary.info.name);
       CHECK(summary.max_drift <= 2e-15);
     }
     double wrong = 0.0;
-    for (const InvariantSummary &summary : drifts(-1.0))
-      wrong = std::max(wrong, summary.max_drift);
+    for (const InvariantSummary& summary : drifts(-1.0)) wrong = std::max(wrong, summary.max_drift);
     // A moment fixed in the body keeps nothing but the orthonormality.
     if (scene.model->load_class() == "body_moment")
       CHECK(drifts(1.0).size() == 1);
@@ -359,40 +321,33 @@ TEST_CASE(
   CHECK(scenes >= 11);
 }
 
-TEST_CASE("rigid body: energy with the wrong sign of gravity is not constant",
-          "[rigid_body]") {
+TEST_CASE("rigid body: energy with the wrong sign of gravity is not constant", "[rigid_body]") {
   const Catalogue catalogue = full_catalogue();
   const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
-  const auto &body = typed<RigidBody<Gravity>>(scene);
-  const RigidBody<Gravity> upside_down(
-      body.inertia(), body.initial(), {-body.load().weight, body.load().centre},
-      scene.t_end);
+  const auto& body = typed<RigidBody<Gravity>>(scene);
+  const RigidBody<Gravity> upside_down(body.inertia(), body.initial(),
+                                       {-body.load().weight, body.load().centre}, scene.t_end);
   const ReferenceStates reference = scene.model->reference({5.0, 10.0});
   const std::vector<double> start = body.flatten(body.initial());
   const auto wrong = box(upside_down);
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto energy = [&](const AnyModel &model,
-                            const std::vector<double> &state) {
+    const auto energy = [&](const AnyModel& model, const std::vector<double>& state) {
       return model.invariants(0.0, state)[1];
     };
-    CHECK(std::abs(energy(*scene.model, reference.states[k]) -
-                   energy(*scene.model, start)) <= 1e-14);
-    CHECK(std::abs(energy(*wrong, reference.states[k]) -
-                   energy(*wrong, start)) >= 0.1);
+    CHECK(std::abs(energy(*scene.model, reference.states[k]) - energy(*scene.model, start)) <= 1e-14);
+    CHECK(std::abs(energy(*wrong, reference.states[k]) - energy(*wrong, start)) >= 0.1);
   }
 }
 
 TEST_CASE("rigid body: scales of a body at rest", "[rigid_body]") {
   const BodyState rest{Matrix3d::Identity(), Vector3d::Zero()};
-  const auto check = [](const auto &model) {
+  const auto check = [](const auto& model) {
     INFO(model.load_class());
     CHECK(std::isfinite(model.time_scale()));
     CHECK(model.time_scale() > 0.0);
-    for (double scale : model.ode().scales())
-      CHECK((std::isfinite(scale) && scale > 0.0));
-    for (double scale : model.dae().scales())
-      CHECK((std::isfinite(scale) && scale > 0.0));
-    for (const InvariantInfo &info : model.invariant_info())
+    for (double scale : model.ode().scales()) CHECK((std::isfinite(scale) && scale > 0.0));
+    for (double scale : model.dae().scales()) CHECK((std::isfinite(scale) && scale > 0.0));
+    for (const InvariantInfo& info : model.invariant_info())
       CHECK((std::isfinite(info.scale) && info.scale > 0.0));
     const auto distance = model.distance(model.initial(), model.initial());
     CHECK(distance[0] <= 2.0 * eps);

@@ -33,26 +33,23 @@ thread_local bool counting = false;
 thread_local long allocations = 0;
 
 void note() {
-  if (counting)
-    ++allocations;
+  if (counting) ++allocations;
 }
 
-void *allocate(std::size_t size, std::size_t alignment) {
+void* allocate(std::size_t size, std::size_t alignment) {
   note();
   const bool counted = std::exchange(counting, false);
-  if (size == 0)
-    size = 1;
-  void *memory = alignment <= alignof(std::max_align_t)
+  if (size == 0) size = 1;
+  void* memory = alignment <= alignof(std::max_align_t)
                      ? std::malloc(size)
-                     : std::aligned_alloc(alignment, (size + alignment - 1) /
-                                                         alignment * alignment);
+                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   counting = counted;
-  if (!memory)
-    throw std::bad_alloc();
+  if (!memory) throw std::bad_alloc();
   return memory;
 }
 
-template <class Body> long allocations_of(Body &&body) {
+template <class Body>
+long allocations_of(Body&& body) {
   allocations = 0;
   counting = true;
   body();
@@ -60,39 +57,33 @@ template <class Body> long allocations_of(Body &&body) {
   return allocations;
 }
 
-} // namespace
+}  // namespace
 
-void *operator new(std::size_t size) { return allocate(size, 1); }
-void *operator new[](std::size_t size) { return allocate(size, 1); }
-void *operator new(std::size_t size, std::align_val_t alignment) {
+[[gnu::noinline]] void* operator new(std::size_t size) { return allocate(size, 1); }
+[[gnu::noinline]] void* operator new[](std::size_t size) { return allocate(size, 1); }
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
-void *operator new[](std::size_t size, std::align_val_t alignment) {
+[[gnu::noinline]] void* operator new[](std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void *memory) noexcept { std::free(memory); }
-void operator delete[](void *memory) noexcept { std::free(memory); }
-void operator delete(void *memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void *memory, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
-void operator delete(void *memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void *memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete(void *memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
-void operator delete[](void *memory, std::size_t, std::align_val_t) noexcept {
+[[gnu::noinline]] void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
 
 #if GNOMON_TEST_OWN_MALLOC
 // The C library's own malloc under its other name.
-extern "C" void *__libc_malloc(std::size_t size) noexcept;
-extern "C" void *malloc(std::size_t size) noexcept {
+extern "C" void* __libc_malloc(std::size_t size) noexcept;
+extern "C" void* malloc(std::size_t size) noexcept {
   note();
   return __libc_malloc(size);
 }
@@ -103,20 +94,21 @@ using namespace gnomon::test;
 
 namespace {
 
-using FixedSchemes = TypeList<rotation::Munjiza, rotation::MunjizaHalfImpulse,
-                              rotation::MunjizaStageMoments, rotation::Rkmk4>;
+using FixedSchemes =
+    TypeList<rotation::Munjiza, rotation::MunjizaHalfImpulse, rotation::MunjizaStageMoments, rotation::Rkmk4>;
 
-template <class Body, class... S> void for_each(TypeList<S...>, Body &&body) {
+template <class Body, class... S>
+void for_each(TypeList<S...>, Body&& body) {
   (body(TypeList<S>{}), ...);
 }
 
 // Allocations of 1000 steps in the driver's inner loop.
-template <class S, class M> long allocations_of_steps(const M &model) {
+template <class S, class M>
+long allocations_of_steps(const M& model) {
   auto state = S::start(model, model.initial());
   long n = 0;
   Status status = Status::unsupported;
-  const long count = allocations_of(
-      [&] { status = detail::march<M, S>(model, state, n, 1000, 1e-3); });
+  const long count = allocations_of([&] { status = detail::march<M, S>(model, state, n, 1000, 1e-3); });
   CHECK(status == Status::ok);
   CHECK(n == 1000);
   CHECK(model.distance(S::view(model, state), model.initial())[1] > 0.0);
@@ -125,27 +117,24 @@ template <class S, class M> long allocations_of_steps(const M &model) {
 
 // A scheme that keeps its state on the heap.
 struct Allocating {
-  static constexpr SchemeInfo info{.name = "allocating",
-                                   .family = "test",
-                                   .summary = "",
-                                   .citation = "",
-                                   .form = "rotation"};
-  template <class M> using State = std::vector<double>;
+  static constexpr SchemeInfo info{
+      .name = "allocating", .family = "test", .summary = "", .citation = "", .form = "rotation"};
   template <class M>
-  static std::vector<double> start(const M &model, const BodyState &state) {
+  using State = std::vector<double>;
+  template <class M>
+  static std::vector<double> start(const M& model, const BodyState& state) {
     return model.flatten(state);
   }
   template <class M>
-  static BodyState view(const M &model, const std::vector<double> &state) {
+  static BodyState view(const M& model, const std::vector<double>& state) {
     return model.restore(state);
   }
   template <class M>
-  static Cost cost(const M &, const std::vector<double> &, long) {
+  static Cost cost(const M&, const std::vector<double>&, long) {
     return {};
   }
   template <class M>
-  static Status step(const M &model, std::vector<double> &state, double,
-                     double) {
+  static Status step(const M& model, std::vector<double>& state, double, double) {
     BodyState next = model.restore(state);
     next.angular_momentum *= 1.001;
     state = model.flatten(next);
@@ -153,10 +142,9 @@ struct Allocating {
   }
 };
 
-} // namespace
+}  // namespace
 
-TEST_CASE("schemes: the counters of allocations see what is allocated",
-          "[rotation][allocation]") {
+TEST_CASE("schemes: the counters of allocations see what is allocated", "[rotation][allocation]") {
   std::vector<double> values;
   CHECK(allocations_of([&] { values.resize(100); }) >= 1);
   CHECK(allocations_of([&] { values[3] += 1.0; }) == 0);
@@ -172,21 +160,18 @@ TEST_CASE("schemes: the counters of allocations see what is allocated",
 #endif
 }
 
-TEST_CASE("schemes: steps of equal size allocate nothing",
-          "[rotation][allocation]") {
+TEST_CASE("schemes: steps of equal size allocate nothing", "[rotation][allocation]") {
   const Catalogue catalogue = full_catalogue();
   std::vector<std::string_view> names;
-  for_each(FixedSchemes{},
-           [&]<class S>(TypeList<S>) { names.push_back(S::info.name); });
+  for_each(FixedSchemes{}, [&]<class S>(TypeList<S>) { names.push_back(S::info.name); });
   // Every scheme of equal steps on rigid bodies is in the list above.
-  for (const SchemeInfo &info : schemes(catalogue, Stepping::fixed))
-    if (info.form == "rotation")
-      CHECK(std::count(names.begin(), names.end(), info.name) == 1);
+  for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed))
+    if (info.form == "rotation") CHECK(std::count(names.begin(), names.end(), info.name) == 1);
 
-  for (const char *name : {"asymmetric-free-top", "asymmetric-heavy-top",
-                           "space-moment", "body-moment", "rest-then-pushed"}) {
+  for (const char* name :
+       {"asymmetric-free-top", "asymmetric-heavy-top", "space-moment", "body-moment", "rest-then-pushed"}) {
     const Scene scene = load_scene(catalogue, name);
-    with_rigid_body(scene, [&](const auto &model) {
+    with_rigid_body(scene, [&](const auto& model) {
       for_each(FixedSchemes{}, [&]<class S>(TypeList<S>) {
         INFO(S::info.name << " on " << name);
         CHECK(allocations_of_steps<S>(model) == 0);
@@ -194,19 +179,16 @@ TEST_CASE("schemes: steps of equal size allocate nothing",
     });
   }
   const Scene scene = load_scene(catalogue, "space-moment");
-  CHECK(allocations_of_steps<Allocating>(
-            typed<RigidBody<SpaceMoment>>(scene)) >= 1000);
+  CHECK(allocations_of_steps<Allocating>(typed<RigidBody<SpaceMoment>>(scene)) >= 1000);
 }
 
-TEST_CASE("rigid body: rates, Jacobians and invariants allocate nothing",
-          "[rigid_body][allocation]") {
+TEST_CASE("rigid body: rates, Jacobians and invariants allocate nothing", "[rigid_body][allocation]") {
   const Catalogue catalogue = full_catalogue();
-  for (const ShippedScene &shipped : shipped_scenes(catalogue)) {
+  for (const ShippedScene& shipped : shipped_scenes(catalogue)) {
     const Scene scene = load_scene(catalogue, shipped.name);
-    if (scene.model_name != "rigid_body")
-      continue;
+    if (scene.model_name != "rigid_body") continue;
     INFO(shipped.name);
-    with_rigid_body(scene, [&](const auto &model) {
+    with_rigid_body(scene, [&](const auto& model) {
       const auto ode = model.ode();
       const auto dae = model.dae();
       double y[8], rate[8], values[64], found[16];

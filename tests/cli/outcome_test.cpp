@@ -1,0 +1,146 @@
+// Exit codes and the files that a command leaves.
+#include "tests/cli/document.hpp"
+
+namespace fs = std::filesystem;
+using namespace gnomon::test;
+using namespace gnomon::test::cli;
+
+TEST_CASE("cli: compare writes its tables and figures of every scene and leaves nothing else", "[cli]") {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "a.toml", free_top);
+  write_text(folder.path() / "b.toml", symmetric_top);
+  const Outcome outcome = run_program(
+      {"compare", "a.toml", "b.toml", "--integrators", "rkmk4,cvode-adams", "--steps", "0.1,0.05", "--tols",
+       "1e-4,1e-6", "--out", "new/results", "--json", "all.json", "--csv", "all.csv", "--quiet"},
+      folder.path());
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(outcome.err.empty());
+  CHECK(folder.entries() == 5);
+  Keys found, expected;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "new" / "results"))
+    found.insert(entry.path().filename().string());
+  for (const std::string scene : {"free", "symmetric"})
+    for (const char* suffix : {".md", ".csv", ".json", ".svg", ".png"})
+      expected.insert("compare-" + scene + suffix);
+  CHECK(found == expected);
+  for (const std::string& name : found) {
+    CHECK(outcome.out.find("wrote new/results/" + name + "\n") != std::string::npos);
+    const std::string content = content_of(folder.path() / "new" / "results" / name);
+    INFO(name);
+    if (name.ends_with(".md")) CHECK(content.find("| rkmk4 ") != std::string::npos);
+    if (name.ends_with(".csv")) CHECK(content.starts_with("integrator,step_s,tol,"));
+    if (name.ends_with(".csv")) CHECK(std::count(content.begin(), content.end(), '\n') == 1 + 4);
+    if (name.ends_with(".svg")) CHECK(content.find("<svg") != std::string::npos);
+    if (name.ends_with(".png")) CHECK(content.starts_with("\x89PNG\r\n"));
+    if (!name.ends_with(".json")) continue;
+    const Json json = Json::parse(content);
+    check_document(json, "compare");
+    CHECK(json["scenes"].size() == 1);
+    CHECK(json["runs"].size() == 4);
+    for (const Json& run : json["runs"]) {
+      check_run(run);
+      CHECK(run["cpu_seconds"].is_object());
+    }
+  }
+  const Json all = Json::parse(content_of(folder.path() / "all.json"));
+  check_document(all, "compare");
+  CHECK(all["scenes"].size() == 2);
+  CHECK(all["runs"].size() == 8);
+}
+
+TEST_CASE("cli: a run that was asked for by name and failed gives exit code 1 and is recorded", "[cli]") {
+  struct Case {
+    Words arguments;
+    std::string status;
+  };
+  for (const Case& each :
+       {Case{{"run", "asymmetric-free-top", "--integrator", "rkmk4", "--step", "0.01", "--max-steps", "10"},
+             "step_limit"},
+        Case{
+            {"run", "asymmetric-free-top", "--integrator", "cvode-bdf", "--tol", "1e-9", "--max-steps", "10"},
+            "step_limit"},
+        Case{{"run", "asymmetric-free-top", "--integrator", "ida-bdf-index2", "--tol", "1e-9", "--max-steps",
+              "2000"},
+             "step_limit"},
+        Case{
+            {"run", "asymmetric-free-top", "--integrator", "rkmk4", "--step", "1e-8", "--time-limit", "0.05"},
+            "time_limit"}}) {
+    const Json json = json_of(each.arguments, 1);
+    const Json& run = json["runs"][0];
+    check_run(run);
+    CHECK(run["status"] == each.status);
+    CHECK(run["error"].is_null());
+    CHECK(run["cpu_seconds"].is_null());
+    CHECK(run["t"] < json["scenes"][0]["t_end"]);
+  }
+}
+
+TEST_CASE("cli: failures count where integrators are named and are rows where they are not", "[cli]") {
+  const Words plain{"converge",  "asymmetric-free-top", "--steps", "0.1,0.01",       "--tols",
+                    "1e-3,1e-9", "--max-steps",         "150",     "--no-reference", "--quiet"};
+  Words named = plain;
+  named.insert(named.end(), {"--integrators", "rkmk4"});
+  named.erase(named.begin() + 4, named.begin() + 6);
+  const Json by_name = json_of(named, 1);
+  REQUIRE(by_name["runs"].size() == 2);
+  CHECK(by_name["runs"][0]["status"] == "ok");
+  CHECK(by_name["runs"][1]["status"] == "step_limit");
+  const Json by_default = json_of(plain, 0);
+  int failed = 0;
+  for (const Json& run : by_default["runs"]) {
+    check_run(run);
+    failed += run["status"] != "ok";
+  }
+  CHECK(failed >= 4);
+
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program(named, folder.path());
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.err ==
+        "gnomon: asymmetric-free-top / rkmk4, step 0.01: step_limit: reached --max-steps 150\n");
+}
+
+TEST_CASE("cli: an interrupted command gives exit code 3 and keeps what was finished", "[cli]") {
+  for (const std::string command : {"converge", "compare"}) {
+    const TemporaryFolder folder;
+    Call call(
+        {command, "asymmetric-free-top", "asymmetric-heavy-top", "--integrators", "rkmk4", "--steps",
+         "0.1,1e-8", "--max-steps", "10000000000", "--no-reference", "--json", "out.json", "--out", "out"},
+        folder.path());
+    // The first run takes microseconds and the second one minutes.
+    call.await_error_output("rkmk4  step 0.1\n");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    call.interrupt();
+    const Outcome outcome = call.wait();
+    INFO(command << "\n" << outcome.err);
+    CHECK(outcome.exit_code == 3);
+    CHECK(outcome.err.ends_with("gnomon: interrupted; what was finished is kept\n"));
+    CHECK(folder.entries() == 2);
+    for (const fs::path& file :
+         {folder.path() / "out.json", folder.path() / "out" / (command + "-asymmetric-free-top.json")}) {
+      const Json json = Json::parse(content_of(file));
+      check_document(json, command);
+      REQUIRE(json["runs"].size() == 2);
+      check_run(json["runs"][0]);
+      CHECK(json["runs"][0]["status"] == "ok");
+      CHECK(json["runs"][0]["t"] == 10.0);
+      CHECK(json["runs"][1]["status"] == "interrupted");
+      CHECK(json["runs"][1]["t"] < 10.0);
+    }
+  }
+}
+
+TEST_CASE("cli: --json FILE replaces the file as a whole and leaves no other", "[cli]") {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "out.json", std::string(1'000'000, 'x'));
+  const Outcome outcome = run_program({"run", "asymmetric-free-top", "--integrator", "rkmk4", "--step", "0.1",
+                                       "--no-timing", "--samples", "10", "--json", "out.json", "--csv", "-"},
+                                      folder.path());
+  REQUIRE(outcome.exit_code == 0);
+  CHECK(folder.entries() == 1);
+  check_run(Json::parse(content_of(folder.path() / "out.json"))["runs"][0], 10);
+  // With --csv - standard output holds the series and nothing else.
+  CHECK(outcome.out.starts_with("t_s,orientation_0,"));
+  CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 1 + 11);
+}
