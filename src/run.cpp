@@ -8,7 +8,8 @@
 namespace gnomon {
 
 StepPlan plan_steps(double t_end, double requested, const std::vector<double>& breaks) {
-  const long count = std::max(1L, std::lround(std::ceil(t_end / requested - 1e-9)));
+  constexpr double most = 9e15;  // beyond, a count is no longer exact in double precision
+  const long count = std::lround(std::clamp(std::ceil(t_end / requested - 1e-9), 1.0, most));
   const double h = t_end / static_cast<double>(count);
   bool misses = false;
   for (double at : breaks) {
@@ -88,6 +89,27 @@ class SystemRecorder {
   std::size_t count_;
 };
 
+/// Notices a solver that takes steps without end and comes nowhere: at the pace of its last steps the end
+/// would be a thousand times --max-steps away.
+class StallGuard {
+ public:
+  static constexpr long window = 20'000;
+  explicit StallGuard(const RunSpec& spec)
+      : t_end_(spec.t_end), limit_(1e3 * static_cast<double>(spec.max_steps)) {}
+  bool stalls(double t, long steps) {
+    if (steps < next_) return false;
+    progress_ = t - t_;
+    next_ = steps + window;
+    t_ = t;
+    return (t_end_ - t) * static_cast<double>(window) > progress_ * limit_;
+  }
+  double progress() const { return progress_; }
+
+ private:
+  double t_end_, limit_, t_ = 0.0, progress_ = 0.0;
+  long next_ = window;
+};
+
 }  // namespace
 
 RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
@@ -118,6 +140,7 @@ RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
 
   const double deadline = wall_seconds() + spec.time_limit;
   std::size_t next_watch = 0;
+  StallGuard stall(spec);
   for (const auto& [until, halt] : halts) {
     while (result.status == Status::ok && solver.t() < until) {
       const double begin = thread_cpu_seconds();
@@ -134,6 +157,11 @@ RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
       if (solver.t() >= spec.t_end) break;
       if (!all_finite(system.model_state(solver.y()))) result.status = Status::diverged;
       if (spec.stop && spec.stop->load(std::memory_order_relaxed)) result.status = Status::interrupted;
+      if (stall.stalls(solver.t(), solver.cost().steps)) {
+        result.status = Status::solver_failed;
+        result.message = fmt::format("stalls at t = {:.6g} s: {} steps brought it {:.2g} s further",
+                                     solver.t(), StallGuard::window, stall.progress());
+      }
       if (solver.cost().steps >= spec.max_steps) result.status = Status::step_limit;
       if (wall_seconds() > deadline) result.status = Status::time_limit;
     }

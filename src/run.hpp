@@ -103,8 +103,8 @@ class Recorder {
 
 /// The inner loop, from step n to step `to`. Stops at the first step that fails.
 template <Model M, FixedStepOn<M> S>
-[[gnu::noinline]] Status march(const M& model, typename S::template State<M>& state, long& n,
-                                             long to, double h) {
+[[gnu::noinline]] Status march(const M& model, typename S::template State<M>& state, long& n, long to,
+                               double h) {
   for (; n < to; ++n) {
     const Status status = S::step(model, state, static_cast<double>(n) * h, h);
     if (status != Status::ok) return status;
@@ -134,6 +134,8 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
   if (spec.samples > 0) recorder.sample(0.0, model.initial());
 
   const double deadline = wall_seconds() + spec.time_limit;
+  if (spec.samples > 0 && plan.count % spec.samples != 0)
+    result.flags.push_back("samples are taken at the nearest steps");
   long n = 0, chunk = 64;
   std::size_t next = 0;
   while (n < last && result.status == Status::ok) {

@@ -151,7 +151,7 @@ class Study {
     document.add_drifts(study);
     write_study(folder_, "drift-" + plan.scene, {drift_table(study)}, document,
                 drift_figure(context_.catalogue, study, "energy"),
-                command(fmt::format("drift {} --step {:g} --tols {:g} --t-end {:g}", plan.scene, plan.step,
+                command(fmt::format("drift {} --step {:g} --tol {:g} --t-end {:g}", plan.scene, plan.step,
                                     plan.tol, *changes.t_end)));
     return true;
   }

@@ -142,9 +142,12 @@ std::vector<Scene> load_scenes(const Context& context) {
   if (scenes.empty())
     throw UsageError("SCENE: found nothing, expected the name of a shipped scene or a .toml file");
   check_steps(context.request, scenes);
+  return scenes;
+}
+
+void warn(const std::vector<Scene>& scenes) {
   for (const Scene& scene : scenes)
     for (const std::string& warning : scene.warnings) std::cerr << "gnomon: warning: " << warning << '\n';
-  return scenes;
 }
 
 void check_outputs(const Request& request) {

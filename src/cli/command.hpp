@@ -37,8 +37,10 @@ struct Context {
 
 StudyOptions study_options(const Request& request);
 SceneChanges scene_changes(const Request& request);
-/// All scenes of the request; their warnings go to standard error. Throws UsageError when there is none.
+/// All scenes of the request. Throws UsageError when there is none.
 std::vector<Scene> load_scenes(const Context& context);
+/// Their warnings, on standard error; for when all that can be refused has been checked.
+void warn(const std::vector<Scene>& scenes);
 /// A positive number from the command line, in the unit that `expected` names.
 double positive_number(const std::string& option, const std::string& text, const std::string& expected);
 

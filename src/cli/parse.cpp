@@ -68,14 +68,14 @@ struct Command {
 
 constexpr Command commands[] = {
     {"list", "[scenes | models | integrators]", "what exists: scenes, models, integrators", "wjQ", list},
-    {"run", "SCENE --integrator NAME (--step H | --tol X)", "one integration of one scene", "SiHTeaxlnsjcRMQ",
-     run},
+    {"run", "SCENE --integrator NAME (--step H | --tol X)", "one integration of one scene",
+     "SiHTeaxlnsjcoRMQ", run},
     {"converge", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
-     "error against step or tolerance, observed order", "SIhteaxlnjcoRMqQ", converge},
+     "error against step or tolerance, observed order", "SIhteaxlnsjcoRMqQ", converge},
     {"compare", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
-     "work-precision: error against CPU time and evaluations", "SIhteaxlnjcoRMqQ", compare, "gnomon-out"},
+     "work-precision: error against CPU time and evaluations", "SIhteaxlnsjcoRMqQ", compare, "gnomon-out"},
     {"drift", "SCENE.. [--integrators A,B,..] [--step H] [--tol X] [--t-end T]", "invariants over a long run",
-     "SIHTeaxlnjcoRMQ", drift},
+     "SIHTeaxlnsjcoRMQ", drift},
     {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", "oqFQ", bench},
     {"doctor", "", "versions, build flags, is SUNDIALS optimised, timer noise", "jQ", doctor},
 };

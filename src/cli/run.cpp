@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "src/cli/command.hpp"
+#include "src/cli/files.hpp"
 #include "src/error.hpp"
 #include "src/study/present.hpp"
 
@@ -101,6 +102,7 @@ int run(Context& context) {
                                  options.integrators.empty() ? "nothing" : "several"));
   const SchemeInfo& scheme = *select(context.catalogue, study.scene, options).front();
   const Setting setting = read_setting(scheme, options);
+  warn({study.scene});
 
   ReferenceStore references(reference_folder());
   Runner runner(context.catalogue, references, context.stop);
@@ -117,7 +119,12 @@ int run(Context& context) {
   print(request, study);
   Document document(context.catalogue, "run");
   document.add(study);
-  write_outputs(request, document, {result.samples.empty() ? runs_table(study, "") : series_table(study)});
+  const output::Table table = result.samples.empty() ? runs_table(study, "") : series_table(study);
+  if (!request.out.empty())
+    for (const std::string& file :
+         write_study(request.out, "run-" + study.scene.name, {table}, document, std::nullopt, ""))
+      say(request, "wrote " + file);
+  write_outputs(request, document, {table});
   if (result.status == Status::interrupted || runner.stopped()) return interrupted;
   if (result.status == Status::ok) return done;
   std::cerr << fmt::format("gnomon: {} / {}: {}: {}\n", study.scene.name, scheme.name,
