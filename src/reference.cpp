@@ -11,12 +11,19 @@ namespace gnomon {
 namespace {
 
 // Raised whenever the way references are computed changes.
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 
 std::string key_text(const Scene& scene, const std::vector<double>& times) {
   std::string text = fmt::format("gnomon reference {} {}", format_version, scene.physics_hash());
   for (double t : times) text += fmt::format(" {:.17g}", t);
   return text;
+}
+
+/// Of everything that must not be damaged.
+std::string checksum(const ReferenceStates& reference) {
+  const nlohmann::ordered_json json{reference.kind,   reference.methods, reference.times,
+                                    reference.states, reference.bounds,  reference.message};
+  return hash_text(json.dump());
 }
 
 nlohmann::ordered_json to_json(const Scene& scene, const ReferenceStates& reference, const std::string& key) {
@@ -27,7 +34,8 @@ nlohmann::ordered_json to_json(const Scene& scene, const ReferenceStates& refere
           {"times", reference.times},
           {"states", reference.states},
           {"bounds", reference.bounds},
-          {"message", reference.message}};
+          {"message", reference.message},
+          {"checksum", checksum(reference)}};
 }
 
 bool read(const std::string& path, const std::string& key, ReferenceStates& reference) {
@@ -42,8 +50,7 @@ bool read(const std::string& path, const std::string& key, ReferenceStates& refe
     json.at("states").get_to(reference.states);
     json.at("bounds").get_to(reference.bounds);
     json.at("message").get_to(reference.message);
-    return reference.kind.empty() || (reference.states.size() == reference.times.size() &&
-                                      reference.bounds.size() == reference.times.size());
+    return json.at("checksum") == checksum(reference);
   } catch (const std::exception&) {
     return false;
   }

@@ -162,7 +162,7 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
       break;
     }
     if (next < stops.size() && stops[next].index == n) {
-      const double t = static_cast<double>(n) * plan.h;
+      const double t = n == plan.count ? spec.t_end : static_cast<double>(n) * plan.h;
       if (stops[next].watch) recorder.watch(t, S::view(model, state));
       if (stops[next].sample) recorder.sample(t, S::view(model, state));
     }
@@ -208,12 +208,14 @@ RunResult run_closed_form(const M& model, const RunSpec& spec) {
 /// One integration in progress by a solver that chooses its own steps.
 class AdaptiveSolver {
  public:
+  static constexpr long step_window = 20'000;
   virtual ~AdaptiveSolver() = default;
-  /// Goes on to t_stop exactly, or by one internal step that does not pass it. After a failure `message` says
-  /// why and t and y are those of the last good step.
+  /// Goes on to t_stop exactly, or by one internal step that does not pass it. Without `one_step` it may come
+  /// back earlier with Status::step_limit, after `step_window` steps or the run's limit, to be called again.
+  /// After a failure `message` says why and t and y are those of the last good step.
   virtual Status advance(double t_stop, bool one_step) = 0;
-  /// Forgets the past, for data that jump at the present time.
-  virtual void restart() = 0;
+  /// Forgets the past, for data that jump at the present time; t_stop is where it goes next.
+  virtual void restart(double t_stop) = 0;
   virtual double t() const = 0;
   virtual const double* y() const = 0;
   virtual Cost cost() const = 0;

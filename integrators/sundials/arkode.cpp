@@ -7,15 +7,17 @@ namespace {
 class Arkode final : public Session {
  public:
   Arkode(const OdeSystem& system, const RunSpec& spec, bool implicit, const char* table)
-      : Session(system, spec), system_(system), erk_(!implicit) {
-    system.start(N_VGetArrayPointer(y_.get()));
-    memory_ = erk_ ? ERKStepCreate(rhs, 0.0, y_.get(), context_)
-                   : ARKStepCreate(nullptr, rhs, 0.0, y_.get(), context_);
+      : Session(system, spec),
+        system_(system),
+        erk_(!implicit),
+        memory_((system.start(N_VGetArrayPointer(y_.get())), erk_)
+                    ? ERKStepCreate(rhs, 0.0, y_.get(), context_)
+                    : ARKStepCreate(nullptr, rhs, 0.0, y_.get(), context_),
+                arkode_free(erk_)) {
     if (!memory_) throw std::runtime_error("ERKStepCreate or ARKStepCreate failed");
     keep_arkode_messages(erk_, memory_, &messages_);
     check(arkode_set_user_data(erk_)(memory_, this), "ARKodeSetUserData");
     check(arkode_set_tolerances(erk_)(memory_, rtol_, atol_.get()), "ARKodeSVtolerances");
-    check(arkode_set_max_steps(erk_)(memory_, max_steps_), "ARKodeSetMaxNumSteps");
     check(arkode_set_max_hnil(erk_)(memory_, -1), "ARKodeSetMaxHnilWarns");
     if (erk_) {
       check(ERKStepSetTableName(memory_, table), "ERKStepSetTableName");
@@ -25,19 +27,21 @@ class Arkode final : public Session {
       check(arkode_set_linear_solver(memory_, linear_.solver.get(), linear_.matrix.get()),
             "ARKodeSetLinearSolver");
       check(arkode_set_jacobian(memory_, jacobian), "ARKodeSetJacFn");
+      // A matrix of an old step is never good enough: where Newton has converged at once before, as on linear
+      // problems, ARKODE takes its first iterate for granted, and by default the step may have changed by 20
+      // % since.
+      check(arkode_set_delta_gamma_max(memory_, 1e-12), "ARKodeSetDeltaGammaMax");
     }
   }
-  ~Arkode() override { arkode_free(erk_)(&memory_); }
-  Arkode(const Arkode&) = delete;
-  Arkode& operator=(const Arkode&) = delete;
 
   Status advance(double t_stop, bool one_step) override {
     if (stop_ != t_stop) arkode_set_stop_time(erk_)(memory_, stop_ = t_stop);
+    arkode_set_max_steps(erk_)(memory_, call_limit(steps()));
     const int flag =
         arkode_evolve(erk_)(memory_, t_stop, y_.get(), &t_, one_step ? ARK_ONE_STEP : ARK_NORMAL);
     return finish(flag, arkode_flag_name(erk_), "ARKODE");
   }
-  void restart() override {
+  void restart(double) override {
     past_ = cost();
     enter_segment();
     rhs_ = 0;
@@ -67,6 +71,11 @@ class Arkode final : public Session {
   }
 
  private:
+  long steps() const {
+    long steps = 0;
+    arkode_get_steps(erk_)(memory_, &steps);
+    return past_.steps + steps;
+  }
   static int rhs(sunrealtype t, N_Vector y, N_Vector rate, void* user) {
     auto* self = static_cast<Arkode*>(user);
     return self->guarded([&] {
@@ -86,7 +95,7 @@ class Arkode final : public Session {
 
   const OdeSystem& system_;
   bool erk_;
-  void* memory_ = nullptr;
+  Memory memory_;
   Cost past_;
 };
 

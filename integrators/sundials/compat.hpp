@@ -81,12 +81,14 @@ inline auto arkode_flag_name([[maybe_unused]] bool erk) { GNOMON_ARKODE(GetRetur
 #if SUNDIALS_VERSION_MAJOR >= 7
 inline constexpr auto arkode_set_linear_solver = ARKodeSetLinearSolver;
 inline constexpr auto arkode_set_jacobian = ARKodeSetJacFn;
+inline constexpr auto arkode_set_delta_gamma_max = ARKodeSetDeltaGammaMax;
 inline constexpr auto arkode_get_jacobians = ARKodeGetNumJacEvals;
 inline constexpr auto arkode_get_setups = ARKodeGetNumLinSolvSetups;
 inline constexpr auto arkode_get_iterations = ARKodeGetNumNonlinSolvIters;
 #else
 inline constexpr auto arkode_set_linear_solver = ARKStepSetLinearSolver;
 inline constexpr auto arkode_set_jacobian = ARKStepSetJacFn;
+inline constexpr auto arkode_set_delta_gamma_max = ARKStepSetDeltaGammaMax;
 inline constexpr auto arkode_get_jacobians = ARKStepGetNumJacEvals;
 inline constexpr auto arkode_get_setups = ARKStepGetNumLinSolvSetups;
 inline constexpr auto arkode_get_iterations = ARKStepGetNumNonlinSolvIters;

@@ -6,15 +6,16 @@ namespace {
 
 class Cvode final : public Session {
  public:
-  Cvode(const OdeSystem& system, const RunSpec& spec, bool adams) : Session(system, spec), system_(system) {
+  Cvode(const OdeSystem& system, const RunSpec& spec, bool adams)
+      : Session(system, spec),
+        system_(system),
+        memory_(CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_), CVodeFree) {
     system.start(N_VGetArrayPointer(y_.get()));
-    memory_ = CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_);
     if (!memory_) throw std::runtime_error("CVodeCreate failed");
     keep_cvode_messages(memory_, &messages_);
     check(CVodeInit(memory_, rhs, 0.0, y_.get()), "CVodeInit");
     check(CVodeSetUserData(memory_, this), "CVodeSetUserData");
     check(CVodeSVtolerances(memory_, rtol_, atol_.get()), "CVodeSVtolerances");
-    check(CVodeSetMaxNumSteps(memory_, max_steps_), "CVodeSetMaxNumSteps");
     check(CVodeSetMaxHnilWarns(memory_, -1), "CVodeSetMaxHnilWarns");
     // Newton also for Adams: on fast tops it takes half the steps of the fixed-point iteration at tight
     // tolerances.
@@ -22,16 +23,14 @@ class Cvode final : public Session {
     check(CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()), "CVodeSetLinearSolver");
     check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
   }
-  ~Cvode() override { CVodeFree(&memory_); }
-  Cvode(const Cvode&) = delete;
-  Cvode& operator=(const Cvode&) = delete;
 
   Status advance(double t_stop, bool one_step) override {
     if (stop_ != t_stop) CVodeSetStopTime(memory_, stop_ = t_stop);
+    CVodeSetMaxNumSteps(memory_, call_limit(steps()));
     const int flag = CVode(memory_, t_stop, y_.get(), &t_, one_step ? CV_ONE_STEP : CV_NORMAL);
     return finish(flag, CVodeGetReturnFlagName, "CVODE");
   }
-  void restart() override {
+  void restart(double) override {
     past_ = cost();
     enter_segment();
     rhs_ = 0;
@@ -56,6 +55,11 @@ class Cvode final : public Session {
   }
 
  private:
+  long steps() const {
+    long steps = 0;
+    CVodeGetNumSteps(memory_, &steps);
+    return past_.steps + steps;
+  }
   static int rhs(sunrealtype t, N_Vector y, N_Vector rate, void* user) {
     auto* self = static_cast<Cvode*>(user);
     return self->guarded([&] {
@@ -74,7 +78,7 @@ class Cvode final : public Session {
   }
 
   const OdeSystem& system_;
-  void* memory_ = nullptr;
+  Memory memory_;
   Cost past_;
 };
 

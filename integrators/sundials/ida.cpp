@@ -7,15 +7,13 @@ namespace {
 class Ida final : public Session {
  public:
   Ida(const DaeSystem& system, const RunSpec& spec)
-      : Session(system, spec), system_(system), rate_(make_vector()) {
+      : Session(system, spec), system_(system), rate_(make_vector()), memory_(IDACreate(context_), IDAFree) {
     system.start(N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(rate_.get()));
-    memory_ = IDACreate(context_);
     if (!memory_) throw std::runtime_error("IDACreate failed");
     keep_ida_messages(memory_, &messages_);
     check(IDAInit(memory_, residual, 0.0, y_.get(), rate_.get()), "IDAInit");
     check(IDASetUserData(memory_, this), "IDASetUserData");
     check(IDASVtolerances(memory_, rtol_, atol_.get()), "IDASVtolerances");
-    check(IDASetMaxNumSteps(memory_, max_steps_), "IDASetMaxNumSteps");
     const std::vector<int> algebraic = system.algebraic();
     std::vector<double> id(algebraic.size());
     for (std::size_t k = 0; k < id.size(); ++k) id[k] = algebraic[k] ? 0.0 : 1.0;
@@ -25,21 +23,26 @@ class Ida final : public Session {
     check(IDASetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()), "IDASetLinearSolver");
     check(IDASetJacFn(memory_, jacobian), "IDASetJacFn");
   }
-  ~Ida() override { IDAFree(&memory_); }
-  Ida(const Ida&) = delete;
-  Ida& operator=(const Ida&) = delete;
 
   Status advance(double t_stop, bool one_step) override {
     if (stop_ != t_stop) IDASetStopTime(memory_, stop_ = t_stop);
+    IDASetMaxNumSteps(memory_, call_limit(steps()));
     const int flag =
         IDASolve(memory_, t_stop, &t_, y_.get(), rate_.get(), one_step ? IDA_ONE_STEP : IDA_NORMAL);
     return finish(flag, IDAGetReturnFlagName, "IDA");
   }
-  void restart() override {
+  void restart(double t_stop) override {
     past_ = cost();
     enter_segment();
     residuals_ = 0;
     check(IDAReInit(memory_, t_, y_.get(), rate_.get()), "IDAReInit");
+    // The rates and algebraic variables behind a break are other ones. Where IDA cannot find them, as for
+    // stabilised forms, whose start is consistent by construction, it goes on from those it has.
+    if (IDACalcIC(memory_, IDA_YA_YDP_INIT, t_stop) == IDA_SUCCESS)
+      check(IDAGetConsistentIC(memory_, y_.get(), rate_.get()), "IDAGetConsistentIC");
+    else
+      check(IDAReInit(memory_, t_, y_.get(), rate_.get()), "IDAReInit");
+    messages_.last.clear();
   }
   Cost cost() const override {
     Cost cost = past_;
@@ -60,6 +63,11 @@ class Ida final : public Session {
   }
 
  private:
+  long steps() const {
+    long steps = 0;
+    IDAGetNumSteps(memory_, &steps);
+    return past_.steps + steps;
+  }
   static int residual(sunrealtype t, N_Vector y, N_Vector rate, N_Vector value, void* user) {
     auto* self = static_cast<Ida*>(user);
     return self->guarded([&] {
@@ -81,7 +89,7 @@ class Ida final : public Session {
   const DaeSystem& system_;
   Vector rate_;
   Vector id_;
-  void* memory_ = nullptr;
+  Memory memory_;
   long residuals_ = 0;
   Cost past_;
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -40,6 +41,23 @@ struct Deleter {
 using Vector = std::unique_ptr<std::remove_pointer_t<N_Vector>, Deleter>;
 using Matrix = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Deleter>;
 using LinearSolver = std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Deleter>;
+
+/// Owner of the memory of an integrator, freed by the integrator's own function, also when its set-up fails
+/// half way.
+class Memory {
+ public:
+  Memory(void* memory, void (*release)(void**)) : memory_(memory), release_(release) {}
+  ~Memory() {
+    if (memory_) release_(&memory_);
+  }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  operator void*() const { return memory_; }
+
+ private:
+  void* memory_;
+  void (*release_)(void**);
+};
 
 /// A dense or, where the system declares a pattern, a sparse matrix with KLU.
 struct Linear {
@@ -83,6 +101,8 @@ class Session : public AdaptiveSolver {
   static void require_finite(const double* values, int size);
   /// The time at which the equations are to be evaluated: before a break, the limit from that side.
   double one_sided(double t) const { return t < segment_end_ ? t : before_segment_end_; }
+  /// How many steps the next call may take.
+  long call_limit(long steps_so_far) const { return std::clamp(max_steps_ - steps_so_far, 1L, step_window); }
   /// To be called at the start and at each restart.
   void enter_segment();
 
@@ -98,7 +118,7 @@ class Session : public AdaptiveSolver {
   int size_;
   double rtol_;
   Vector atol_;
-  long max_steps_;
+  long max_steps_;  ///< of the whole run
   std::optional<SparsePattern> pattern_;
   Linear linear_;
   std::vector<double> breaks_;

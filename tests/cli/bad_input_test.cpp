@@ -54,7 +54,8 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {run_of("s.toml", {"--smaples", "3"}), "run: found the unknown option '--smaples', expected --samples"},
       {run_of("s.toml", {"-x"}),
        "run: found the unknown option '-x', expected one of --integrator, --step, --tol, --t-end, --set, "
-       "--max-steps, --time-limit, --newton-tol, --samples, --json, --csv, --no-reference, --no-timing, "
+       "--max-steps, --time-limit, --newton-tol, --samples, --json, --csv, --out, --no-reference, "
+       "--no-timing, "
        "--quiet, "
        "--help"},
       {run_of("s.toml", {"--steps", "1"}), "run: found the unknown option '--steps', expected --step"},

@@ -60,7 +60,7 @@ Properties observe(const Catalogue& catalogue, const SchemeInfo& info) {
   const bool fixed = info.stepping == Stepping::fixed;
   RunSpec spec = fixed_step(fixed ? 500.0 : 50.0, 0.05);
   if (!fixed) spec.step.reset();
-  if (info.stepping == Stepping::adaptive) spec.tol = 1e-6;
+  if (info.stepping == Stepping::adaptive) spec.tol = 1e-4;
   const Summaries forth = invariants(catalogue, info.name, *scene.model, spec);
 
   RunSpec unseen = spec;

@@ -77,7 +77,7 @@ TEST_CASE("sundials: errors shrink with the tolerance and the solvers agree", "[
         CHECK(ladder.error[1][m] <= 0.5 * ladder.error[0][m]);
         CHECK(ladder.error[2][m] <= 0.5 * ladder.error[1][m]);
         CHECK(ladder.error[4][m] <= 0.5 * ladder.error[2][m]);
-        CHECK(ladder.error[4][m] <= 1e-4 * ladder.error[0][m]);
+        CHECK(ladder.error[4][m] <= 1e-3 * ladder.error[0][m]);
         // The certified bound holds against the reference, and says something.
         CHECK(ladder.error[tightest][m] <= ladder.bound[m] + reference.bounds.front()[m]);
         CHECK(ladder.bound[m] <= 1e-2 * ladder.error[0][m]);
