@@ -73,7 +73,7 @@ TEST_CASE("sundials: errors shrink with the tolerance and the solvers agree", "[
         INFO("metric " << m << ": errors " << ladder.error[0][m] << " " << ladder.error[1][m] << " "
                        << ladder.error[2][m] << " " << ladder.error[4][m] << ", bound " << ladder.bound[m]);
         // A hundredth of the tolerance brings at least a half, all of them
-        // together a ten-thousandth.
+        // together a thousandth.
         CHECK(ladder.error[1][m] <= 0.5 * ladder.error[0][m]);
         CHECK(ladder.error[2][m] <= 0.5 * ladder.error[1][m]);
         CHECK(ladder.error[4][m] <= 0.5 * ladder.error[2][m]);
