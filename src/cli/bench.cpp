@@ -35,8 +35,8 @@ class Study {
         references_(reference_folder()),
         runner_(context.catalogue, references_, context.stop) {
     const std::string results = std::string(GNOMON_SOURCE_DIR) + "/results";
-    published_ = request_.out.empty() && !request_.quick;
     folder_ = !request_.out.empty() ? request_.out : request_.quick ? results + "/quick" : results;
+    published_ = fs::weakly_canonical(folder_) == fs::weakly_canonical(results);
     for (const std::string& file : context.catalogue.study_files) plan(read_study(file), file);
   }
 
