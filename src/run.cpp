@@ -47,8 +47,9 @@ double wall_seconds() {
 }
 
 std::string failure_message(Status status, long step_index, double t, double h) {
-  const char* what = status == Status::newton_failed ? "Newton's iteration did not converge"
-                                                     : "the state was no longer finite";
+  const char* what = "the step failed";
+  if (status == Status::newton_failed) what = "Newton's iteration did not converge";
+  if (status == Status::diverged) what = "the state was no longer finite";
   return fmt::format("{} in step {} from t = {:.6g} s, step {:.3g} s", what, step_index + 1, t, h);
 }
 
@@ -155,15 +156,20 @@ RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
         while (next_watch < watches.size() && watches[next_watch] <= solver.t()) ++next_watch;
       }
       if (solver.t() >= spec.t_end) break;
-      if (!all_finite(system.model_state(solver.y()))) result.status = Status::diverged;
-      if (spec.stop && spec.stop->load(std::memory_order_relaxed)) result.status = Status::interrupted;
-      if (stall.stalls(solver.t(), solver.cost().steps)) {
+      const long steps = solver.cost().steps;
+      if (!all_finite(system.model_state(solver.y()))) {
+        result.status = Status::diverged;
+      } else if (stall.stalls(solver.t(), steps)) {
         result.status = Status::solver_failed;
         result.message = fmt::format("stalls at t = {:.6g} s: {} steps brought it {:.2g} s further",
                                      solver.t(), StallGuard::window, stall.progress());
+      } else if (steps >= spec.max_steps) {
+        result.status = Status::step_limit;
+      } else if (wall_seconds() > deadline) {
+        result.status = Status::time_limit;
+      } else if (spec.stop && spec.stop->load(std::memory_order_relaxed)) {
+        result.status = Status::interrupted;
       }
-      if (solver.cost().steps >= spec.max_steps) result.status = Status::step_limit;
-      if (wall_seconds() > deadline) result.status = Status::time_limit;
     }
     if (result.status != Status::ok) break;
     if (halt.watch) recorder.watch(solver.t(), solver.y());

@@ -156,6 +156,19 @@ std::string Section::text_or(std::string_view key, std::string_view fallback, st
   return find(key) ? text(key, expected) : std::string(fallback);
 }
 
+std::vector<std::string> Section::texts(std::string_view key, std::string_view expected) {
+  std::vector<std::string> list;
+  const toml::node* node = find(key);
+  if (!node) return list;
+  const toml::array* array = node->as_array();
+  if (!array) fail(key, shown(key), expected);
+  for (const toml::node& entry : *array) {
+    if (!entry.is_string()) fail(key, shown(key), expected);
+    list.push_back(entry.as_string()->get());
+  }
+  return list;
+}
+
 std::string Section::one_of(std::string_view key, const std::vector<std::string>& choices) {
   const std::string expected = choices_text(choices);
   const std::string value = text(key, expected);
@@ -168,6 +181,19 @@ std::optional<Section> Section::section(std::string_view key) {
   if (!node) return std::nullopt;
   if (!node->is_table()) fail(key, shown(key), "a table");
   return Section(*node->as_table(), full(key), *source_);
+}
+
+std::vector<Section> Section::sections(std::string_view key) {
+  const toml::node* node = find(key);
+  std::vector<Section> tables;
+  if (!node) return tables;
+  const toml::array* list = node->as_array();
+  if (!list) fail(key, shown(key), fmt::format("tables [[{}]]", full(key)));
+  for (const toml::node& entry : *list) {
+    if (!entry.is_table()) fail(key, shown(key), fmt::format("tables [[{}]]", full(key)));
+    tables.emplace_back(*entry.as_table(), fmt::format("{}[{}]", full(key), tables.size()), *source_);
+  }
+  return tables;
 }
 
 std::string Section::exactly_one(std::string_view first, std::string_view second, std::string_view meaning) {

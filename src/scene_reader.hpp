@@ -38,9 +38,13 @@ class Section {
                                  std::string_view expected);
   std::string text(std::string_view key, std::string_view expected);
   std::string text_or(std::string_view key, std::string_view fallback, std::string_view expected);
+  /// A list of texts; none when the key is absent.
+  std::vector<std::string> texts(std::string_view key, std::string_view expected);
   std::string one_of(std::string_view key, const std::vector<std::string>& choices);
   /// A table inside this one; none when the key is absent.
   std::optional<Section> section(std::string_view key);
+  /// The tables of an array `[[key]]`, in their order; none when the key is absent.
+  std::vector<Section> sections(std::string_view key);
   /// Exactly one of two keys must be there; returns it.
   std::string exactly_one(std::string_view first, std::string_view second, std::string_view meaning);
 

@@ -30,8 +30,9 @@ Setting read_setting(const SchemeInfo& scheme, const StudyOptions& options) {
       break;
   }
   if (step || tol)
-    throw UsageError(fmt::format("{}: {} is a closed form, expected neither --step nor --tol",
-                                 step ? "--step" : "--tol", scheme.name));
+    throw UsageError(
+        fmt::format("{0}: found {0}, expected neither --step nor --tol because {1} is a closed form",
+                    step ? "--step" : "--tol", scheme.name));
   return {};
 }
 

@@ -90,12 +90,13 @@ std::vector<const SchemeInfo*> select(const Catalogue& catalogue, const Scene& s
       std::vector<std::string> all;
       for (const SchemeInfo& each : catalogue.schemes) all.emplace_back(each.name);
       const std::string near = nearest(name, all);
-      throw UsageError(fmt::format("integrator '{}': there is none of that name, expected {}", name,
+      throw UsageError(fmt::format("--integrators: found the unknown name '{}', expected {}", name,
                                    near.empty() ? fmt::format("one of {}", fmt::join(names, ", ")) : near));
     }
     if (!catalogue.pair(name, *scene.model))
       throw UsageError(
-          fmt::format("integrator '{}' does not run on scene '{}' (model {}, load {}), expected one of {}",
+          fmt::format("--integrators: found '{}', which does not run on scene '{}' (model {}, load {}), "
+                      "expected one of {}",
                       name, scene.name, scene.model_name, scene.model->load_class(), fmt::join(names, ", ")));
     chosen.push_back(info);
   }

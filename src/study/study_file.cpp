@@ -15,22 +15,18 @@ StudyPlan read_study(const std::string& path) {
     throw UsageError(fmt::format("{}: {}", path, error.description()));
   }
   const SceneSource source{path, {}};
-  const auto texts = [&](const toml::table& from, const char* key) {
-    std::vector<std::string> list;
-    if (const toml::array* array = from[key].as_array())
-      for (const toml::node& node : *array) list.push_back(node.value_or(std::string()));
-    return list;
-  };
+  Section root(table, "", source);
   const auto each = [&](const char* key, auto&& read) {
-    if (const toml::array* array = table[key].as_array())
-      for (const toml::node& node : *array)
-        if (const toml::table* entry = node.as_table()) read(*entry, Section(*entry, key, source));
+    for (Section& section : root.sections(key)) {
+      read(section);
+      section.finish();
+    }
   };
   StudyPlan plan;
-  plan.converge = texts(table, "converge");
-  plan.compare = texts(table, "compare");
-  plan.quick_compare = texts(table, "quick_compare");
-  each("drift", [&](const toml::table& entry, Section section) {
+  plan.converge = root.texts("converge", "names of scenes");
+  plan.compare = root.texts("compare", "names of scenes");
+  plan.quick_compare = root.texts("quick_compare", "names of scenes");
+  each("drift", [&](Section& section) {
     DriftPlan drift;
     drift.scene = section.text("scene", "a scene's name");
     drift.t_end = section.positive("t_end", "a positive number (s)");
@@ -38,13 +34,14 @@ StudyPlan read_study(const std::string& path) {
       drift.quick_t_end = section.positive("quick_t_end", "a positive number (s)");
     drift.step = section.positive("step", "a positive number (s)");
     drift.tol = section.positive("tol", "a tolerance");
-    drift.integrators = texts(entry, "integrators");
+    drift.integrators = section.texts("integrators", "names of integrators");
     plan.drift.push_back(std::move(drift));
   });
-  each("speed", [&](const toml::table&, Section section) {
+  each("speed", [&](Section& section) {
     plan.speed.push_back(
         {section.text("scene", "a scene's name"), section.positive("step", "a positive number (s)")});
   });
+  root.finish();
   return plan;
 }
 

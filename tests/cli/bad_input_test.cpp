@@ -70,11 +70,12 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {{"run", "s.toml", "--integrator", "rkmk4,munjiza", "--step", "1"},
        "--integrator: found 'rkmk4,munjiza', expected the name of one integrator"},
       {{"run", "s.toml", "--integrator", "rkkm4", "--step", "1"},
-       "integrator 'rkkm4': there is none of that name, expected rkmk4"},
+       "--integrators: found the unknown name 'rkkm4', expected rkmk4"},
       {{"run", "s.toml", "--integrator", "euler", "--step", "1"},
-       "integrator 'euler': there is none of that name, expected " + integrators_for("asymmetric-free-top")},
+       "--integrators: found the unknown name 'euler', expected " + integrators_for("asymmetric-free-top")},
       {{"run", "space-moment", "--integrator", "exact-free-top"},
-       "integrator 'exact-free-top' does not run on scene 'space-moment' (model rigid_body, load "
+       "--integrators: found 'exact-free-top', which does not run on scene 'space-moment' (model rigid_body, "
+       "load "
        "space_moment), expected " +
            integrators_for("space-moment")},
       {converge({"--integrators", "rkmk4,,munjiza"}),
@@ -82,7 +83,7 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {converge({"--integrators", "rkmk4,munjiza,rkmk4"}),
        "--integrators: found 'rkmk4' twice, expected every name once"},
       {converge({"--integrators", "rkmk4,exact-fre-top"}),
-       "integrator 'exact-fre-top': there is none of that name, expected exact-free-top"},
+       "--integrators: found the unknown name 'exact-fre-top', expected exact-free-top"},
       // Steps and tolerances.
       {with({}), "--step: found nothing, expected --step H because rkmk4 takes equal steps"},
       {with({"--tol", "1e-3"}), "--step: found --tol, expected --step H because rkmk4 takes equal steps"},
@@ -107,7 +108,7 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {{"run", "s.toml", "--integrator", "cvode-bdf", "--tol", "1"}, "--tol: found '1', expected " + tol},
       {{"run", "s.toml", "--integrator", "cvode-bdf", "--tol", "0"}, "--tol: found '0', expected " + tol},
       {{"run", "s.toml", "--integrator", "exact-free-top", "--step", "0.1"},
-       "--step: exact-free-top is a closed form, expected neither --step nor --tol"},
+       "--step: found --step, expected neither --step nor --tol because exact-free-top is a closed form"},
       {converge({"--steps", "0.1,-0.2"}),
        "--steps: found '-0.2', expected positive numbers (s) with one comma between them"},
       {converge({"--steps", "0.1,"}),

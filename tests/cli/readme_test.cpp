@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/catch.hpp"
+#include "tests/output/temporary_folder.hpp"
 
 namespace {
 
@@ -29,9 +30,8 @@ TEST_CASE("cli: the README's examples work as printed", "[cli]") {
   namespace fs = std::filesystem;
   const std::vector<std::string> commands = commands_of_readme();
   REQUIRE(commands.size() >= 6);
-  const fs::path folder = fs::temp_directory_path() / "gnomon-readme-test";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const gnomon::test::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   for (const std::string& command : commands) {
     INFO(command);
     const std::string line =
@@ -42,5 +42,4 @@ TEST_CASE("cli: the README's examples work as printed", "[cli]") {
   CHECK(fs::exists(folder / "run.json"));
   CHECK(fs::exists(folder / "compare" / "compare-asymmetric-free-top.svg"));
   CHECK(fs::exists(folder / "drift" / "drift-asymmetric-free-top.png"));
-  fs::remove_all(folder);
 }

@@ -1,0 +1,52 @@
+#include "src/study/study_file.hpp"
+
+#include <fstream>
+#include <string>
+
+#include "src/error.hpp"
+#include "tests/catch.hpp"
+#include "tests/output/temporary_folder.hpp"
+
+using namespace gnomon;
+
+namespace {
+
+std::string refusal(const std::string& text) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "study.toml";
+  std::ofstream(path) << text;
+  try {
+    read_study(path.string());
+  } catch (const UsageError& error) {
+    const std::string message = error.what();
+    return message.substr(message.find(".toml:") + 6);
+  }
+  return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("study file: what it says is read", "[study]") {
+  const StudyPlan plan = read_study(GNOMON_SOURCE_DIR "/models/rigid_body/study.toml");
+  CHECK(plan.converge.size() >= 11);
+  CHECK(plan.compare.size() >= plan.quick_compare.size());
+  REQUIRE(!plan.drift.empty());
+  CHECK(plan.drift[0].scene == "asymmetric-free-top");
+  CHECK(plan.drift[0].t_end == 1e4);
+  CHECK(plan.drift[0].quick_t_end == 1e3);
+  CHECK(!plan.drift[1].quick_t_end);
+  CHECK(plan.drift[0].integrators.front() == "munjiza");
+  CHECK(plan.speed.size() >= 4);
+}
+
+TEST_CASE("study file: what does not fit is refused", "[study]") {
+  CHECK(refusal("converge = []\n") == "nothing");
+  CHECK(refusal("convurge = []\n") == "1: convurge: found an unknown key, expected converge");
+  CHECK(refusal("converge = \"a\"\n") == "1: converge: found \"a\", expected names of scenes");
+  CHECK(refusal("compare = [1]\n") == "1: compare: found [1], expected names of scenes");
+  CHECK(refusal("drift = 1\n") == "1: drift: found 1, expected tables [[drift]]");
+  CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = -1\n") ==
+        "3: speed[0].step: found -1, expected a positive number (s)");
+  CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = 1\ntol = 1\n") ==
+        "4: speed[0].tol: found an unknown key, expected scene or step");
+}
