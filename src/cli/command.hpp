@@ -21,11 +21,11 @@ inline constexpr int interrupted = 3;  ///< what was finished is kept
 /// errors.
 struct Request {
   std::vector<std::string> scenes;
+  std::vector<std::string> what;  ///< of `list`
   std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol;
   std::vector<std::string> set;
   std::string json, csv, out;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
-  std::string what;  ///< of `list`
 };
 
 /// Everything a command works with.

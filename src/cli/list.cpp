@@ -113,7 +113,10 @@ Table integrators_table(const Catalogue& catalogue, Json& json) {
 }  // namespace
 
 int list(Context& context) {
-  const std::string& what = context.request.what;
+  const std::vector<std::string>& words = context.request.what;
+  if (words.size() > 1)
+    throw UsageError(fmt::format("list: found '{}', expected no further argument", words[1]));
+  const std::string what = words.empty() ? "" : words[0];
   if (!what.empty() && what != "scenes" && what != "models" && what != "integrators")
     throw UsageError(fmt::format("list: found '{}', expected scenes, models or integrators", what));
   Json json;

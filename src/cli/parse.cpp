@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
 #include <variant>
@@ -19,20 +20,24 @@ using Text = std::string Request::*;
 using Texts = std::vector<std::string> Request::*;
 using Switch = bool Request::*;
 
-/// An option, or an argument without a dash where the name has none.
+struct Argument {
+  const char* name;
+  const char* help;
+  Texts target;
+};
+
+constexpr Argument scene{"SCENE", "the name of a shipped scene or a .toml file", &Request::scenes};
+constexpr Argument what{"WHAT", "scenes, models or integrators; all without it", &Request::what};
+
 struct Option {
   char letter;
   const char* name;
   const char* value;  ///< what stands for its value in the help; empty for a switch
   const char* help;
   std::variant<Text, Texts, Switch> target;
-
-  bool positional() const { return name[0] != '-'; }
 };
 
 constexpr Option options[] = {
-    {'S', "SCENE", "", "the name of a shipped scene or a .toml file", &Request::scenes},
-    {'w', "WHAT", "", "scenes, models or integrators; all without it", &Request::what},
     {'i', "--integrator", "NAME", "see `gnomon list integrators`", &Request::integrators},
     {'I', "--integrators", "A,B,..", "default: all that run on the scene", &Request::integrators},
     {'H', "--step", "H", "equal steps, s; T/ceil(T/H) is used", &Request::step},
@@ -61,23 +66,26 @@ struct Command {
   const char* name;
   const char* usage;
   const char* help;
+  const Argument* argument;
   const char* letters;  ///< of its options, in the order of the help
   int (*run)(Context&);
   const char* out = "";  ///< default of --out
 };
 
 constexpr Command commands[] = {
-    {"list", "[scenes | models | integrators]", "what exists: scenes, models, integrators", "wjQ", list},
-    {"run", "SCENE --integrator NAME (--step H | --tol X)", "one integration of one scene",
-     "SiHTeaxlnsjcoRMQ", run},
+    {"list", "[scenes | models | integrators]", "what exists: scenes, models, integrators", &what, "jQ",
+     list},
+    {"run", "SCENE --integrator NAME (--step H | --tol X)", "one integration of one scene", &scene,
+     "iHTeaxlnsjcoRMQ", run},
     {"converge", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
-     "error against step or tolerance, observed order", "SIhteaxlnsjcoRMqQ", converge},
+     "error against step or tolerance, observed order", &scene, "IhteaxlnsjcoRMqQ", converge},
     {"compare", "SCENE.. [--integrators A,B,..] [--steps H1,H2,..] [--tols X1,X2,..]",
-     "work-precision: error against CPU time and evaluations", "SIhteaxlnsjcoRMqQ", compare, "gnomon-out"},
+     "work-precision: error against CPU time and evaluations", &scene, "IhteaxlnsjcoRMqQ", compare,
+     "gnomon-out"},
     {"drift", "SCENE.. [--integrators A,B,..] [--step H] [--tol X] [--t-end T]", "invariants over a long run",
-     "SIHTeaxlnsjcoRMQ", drift},
-    {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", "oqFQ", bench},
-    {"doctor", "", "versions, build flags, is SUNDIALS optimised, timer noise", "jQ", doctor},
+     &scene, "IHTeaxlnsjcoRMQ", drift},
+    {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqFQ", bench},
+    {"doctor", "", "versions, build flags, is SUNDIALS optimised, timer noise", nullptr, "jQ", doctor},
 };
 
 std::vector<std::string> command_names() {
@@ -86,20 +94,11 @@ std::vector<std::string> command_names() {
   return names;
 }
 
-/// The options of a command, without the arguments.
 std::vector<const Option*> options_of(const Command& command) {
   std::vector<const Option*> list;
   for (const char letter : std::string_view(command.letters))
-    for (const Option& option : options)
-      if (option.letter == letter && !option.positional()) list.push_back(&option);
+    list.push_back(std::ranges::find(options, letter, &Option::letter));
   return list;
-}
-
-const Option* argument_of(const Command& command) {
-  for (const char letter : std::string_view(command.letters))
-    for (const Option& option : options)
-      if (option.letter == letter && option.positional()) return &option;
-  return nullptr;
 }
 
 std::string help_line(std::string_view left, std::string_view right) {
@@ -122,7 +121,7 @@ std::string general_help() {
 std::string command_help(const Command& command) {
   std::string text = fmt::format("{}\n\nUsage: gnomon {} {}{}[options]\n\n", command.help, command.name,
                                  command.usage, *command.usage ? " " : "");
-  if (const Option* argument = argument_of(command)) text += help_line(argument->name, argument->help) + "\n";
+  if (command.argument) text += help_line(command.argument->name, command.argument->help) + "\n";
   text += "Options:\n";
   for (const Option* option : options_of(command))
     text += help_line(fmt::format("{} {}", option->name, option->value), option->help);
@@ -156,24 +155,25 @@ const Option& find_option(const Command& command, const std::string& name) {
 }
 
 void take_argument(const Command& command, Request& request, const std::string& text) {
-  const Option* argument = argument_of(command);
-  const Text* single = argument ? std::get_if<Text>(&argument->target) : nullptr;
-  if (!argument || (single && !(request.**single).empty()))
+  const Argument* argument = command.argument;
+  if (!argument)
     throw UsageError(fmt::format("{}: found '{}', expected no further argument", command.name, text));
   if (text.empty())
     throw UsageError(fmt::format("{}: found '', expected {}", argument->name, argument->help));
-  if (single)
-    request.** single = text;
-  else
-    (request.*std::get<Texts>(argument->target)).push_back(text);
+  (request.*argument->target).push_back(text);
 }
 
-/// A value of an option; once only, unless the option collects them.
+/// A value of an option; once only, unless the option collects them. That of a switch is "true".
 void take_value(const Option& option, Request& request, const std::string& value) {
-  if (value.empty())
+  if (const Switch* flag = std::get_if<Switch>(&option.target)) {
+    if (value != "true")
+      throw UsageError(fmt::format("{}: found the value '{}', expected none", option.name, value));
+    request.** flag = true;
+    return;
+  }
+  // A value may begin with one dash, as negative numbers and "-" do, but not with two.
+  if (value.empty() || value.starts_with("--"))
     throw UsageError(fmt::format("{0}: found no value, expected {0} {1}", option.name, option.value));
-  if (option.letter == 'i' && value.find(',') != std::string::npos)
-    throw UsageError(fmt::format("{}: found '{}', expected the name of one integrator", option.name, value));
   if (const Texts* several = std::get_if<Texts>(&option.target)) {
     (request.**several).push_back(value);
     return;
@@ -185,55 +185,69 @@ void take_value(const Option& option, Request& request, const std::string& value
   target = value;
 }
 
+/// Has CLI11 read `words`. It prints nothing: help and what is wrong are told here, the same for all its
+/// versions.
+void read_words(CLI::App& app, const std::vector<std::string>& words) {
+  app.set_help_flag();
+  app.add_flag("-h,--help");
+  app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // it wants the last word first
+}
+
 /// Reads what follows the command. True if its help was asked for.
-bool read_arguments(const Command& command, const std::vector<std::string>& arguments, Request& request) {
-  bool options_ended = false;
-  for (auto it = arguments.begin(); it != arguments.end(); ++it) {
-    if (options_ended || it->size() < 2 || it->front() != '-') {
-      take_argument(command, request, *it);
-      continue;
-    }
-    if (*it == "--") {
-      options_ended = true;
-      continue;
-    }
-    if (*it == "--help" || *it == "-h") return true;
-    const std::size_t equals = it->find('=');
-    const Option& option = find_option(command, it->substr(0, equals));
-    if (const Switch* flag = std::get_if<Switch>(&option.target)) {
-      if (equals != std::string::npos)
-        throw UsageError(
-            fmt::format("{}: found the value '{}', expected none", option.name, it->substr(equals + 1)));
-      request.** flag = true;
-    } else if (equals != std::string::npos) {
-      take_value(option, request, it->substr(equals + 1));
-    } else {
-      // A value may begin with one dash, as negative numbers and "-" do, but not with two.
-      const auto next = std::next(it);
-      const bool there = next != arguments.end() && !next->starts_with("--");
-      take_value(option, request, there ? *next : "");
-      if (there) it = next;
-    }
+bool read_request(const Command& command, const std::vector<std::string>& words, Request& request) {
+  const std::vector<const Option*> known = options_of(command);
+  CLI::App app;
+  app.allow_extras();
+  for (const Option* option : known) {
+    app.add_option(option->name)->take_all()->expected(*option->value ? 1 : 0);
+    // With `--option=` CLI11 would take the next word for the value.
+    if (std::ranges::count(words, option->name + std::string("=")) > 0) take_value(*option, request, "");
   }
+  try {
+    read_words(app, words);
+  } catch (const CLI::ArgumentMismatch&) {
+    take_value(find_option(command, words.back()), request, "");  // refused: the last value is missing
+  }
+  if (app.count("--help") > 0) return true;
+  bool options_ended = false;
+  for (const std::string& word : app.remaining()) {
+    if (options_ended || word.size() < 2 || word.front() != '-')
+      take_argument(command, request, word);
+    else if (word == "--")
+      options_ended = true;
+    else
+      find_option(command, word.substr(0, word.find('=')));  // refused: CLI11 knows all that there are
+  }
+  for (const Option* option : known)
+    for (const std::string& value : app.get_option(option->name)->results())
+      take_value(*option, request, value);
   return false;
 }
 
 int dispatch(const Catalogue& catalogue, const std::atomic<bool>& stop,
              const std::vector<std::string>& arguments) {
-  if (arguments.empty())
-    throw UsageError(fmt::format("found no command, expected {} (gnomon --help explains them)",
-                                 choices_text(command_names())));
-  const std::string& first = arguments.front();
-  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
-  if (first == "--help" || first == "-h" || first == "--version") {
-    if (!rest.empty())
-      throw UsageError(fmt::format("{}: found '{}', expected no further argument", first, rest.front()));
-    fmt::print("{}", first == "--version" ? fmt::format("gnomon {}\n", gnomon_version) : general_help());
+  CLI::App app;
+  app.prefix_command();
+  app.add_flag("--version");
+  read_words(app, arguments);
+  std::vector<std::string> words = app.remaining();
+  if (app.count("--help") > 0) {
+    fmt::print("{}", general_help());
     return done;
   }
-  const Command& command = find_command(first);
+  if (app.count("--version") > 0) {
+    if (!words.empty())
+      throw UsageError(fmt::format("--version: found '{}', expected no further argument", words.front()));
+    fmt::print("gnomon {}\n", gnomon_version);
+    return done;
+  }
+  if (words.empty())
+    throw UsageError(fmt::format("found no command, expected {} (gnomon --help explains them)",
+                                 choices_text(command_names())));
+  const Command& command = find_command(words.front());
+  words.erase(words.begin());
   Context context{catalogue, stop, {}};
-  if (read_arguments(command, rest, context.request)) {
+  if (read_request(command, words, context.request)) {
     fmt::print("{}", command_help(command));
     return done;
   }

@@ -93,14 +93,15 @@ void print(const Request& request, const SceneStudy& study) {
 
 int run(Context& context) {
   const Request& request = context.request;
+  const std::string one_name = "expected the name of one integrator";
+  if (request.integrators.find(',') != std::string::npos)
+    throw UsageError(fmt::format("--integrator: found '{}', {}", request.integrators, one_name));
   StudyOptions options = study_options(request);
   if (request.scenes.size() > 1)
     throw UsageError(fmt::format("run: found {} scenes, expected one", request.scenes.size()));
   SceneStudy study;
   study.scene = std::move(load_scenes(context).front());
-  if (options.integrators.size() != 1)
-    throw UsageError(fmt::format("--integrator: found {}, expected the name of one integrator",
-                                 options.integrators.empty() ? "nothing" : "several"));
+  if (options.integrators.empty()) throw UsageError("--integrator: found nothing, " + one_name);
   const SchemeInfo& scheme = *select(context.catalogue, study.scene, options).front();
   const Setting setting = read_setting(scheme, options);
   warn({study.scene});

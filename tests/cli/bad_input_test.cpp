@@ -65,6 +65,14 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {run_of("s.toml", {"--samples="}), "--samples: found no value, expected --samples N"},
       {run_of("s.toml", {"--set", ""}), "--set: found no value, expected --set KEY.PATH=VALUE"},
       {run_of("s.toml", {"--quiet=yes"}), "--quiet: found the value 'yes', expected none"},
+      // What the library would read in another way, or each of its versions in its own.
+      {run_of("s.toml", {"--json=", "t.toml"}), "--json: found no value, expected --json FILE"},
+      {run_of("s.toml", {"--", "--quiet"}), "run: found 2 scenes, expected one"},
+      {run_of("s.toml", {"++", "list"}), "run: found 3 scenes, expected one"},
+      {run_of("s.toml", {"--samples", "[1,2]"}), "--samples: found '[1,2]', expected " + samples},
+      {run_of("s.toml", {"--samples={}"}), "--samples: found '{}', expected " + samples},
+      {with({"--step", "-h"}), "--step: found '-h', expected " + step},
+      {{"run.list"}, "found the unknown command 'run.list', expected " + commands},
       // Integrators.
       {{"run", "s.toml", "--step", "1"}, "--integrator: found nothing, expected the name of one integrator"},
       {{"run", "s.toml", "--integrator", "rkmk4,munjiza", "--step", "1"},
