@@ -30,6 +30,12 @@ class AnyModel {
   /// had.
   virtual ReferenceStates reference(const std::vector<double>& times) const = 0;
   virtual bool has_exact() const = 0;
+  /// For models with a mesh (see HasField); empty for others.
+  virtual bool has_field() const = 0;
+  virtual std::vector<double> field(const std::vector<double>& state,
+                                    const std::vector<double>& places) const = 0;
+  virtual std::vector<double> field_distance(const std::vector<double>& field,
+                                             const std::vector<double>& reference) const = 0;
 };
 
 template <Model M>
@@ -62,6 +68,20 @@ class ModelBox final : public AnyModel {
     return reference_states(model_, times);
   }
   bool has_exact() const override { return HasExact<M>; }
+  bool has_field() const override { return HasField<M>; }
+  std::vector<double> field(const std::vector<double>& state,
+                            const std::vector<double>& places) const override {
+    if constexpr (HasField<M>) return model_.field(model_.restore(state), places);
+    return {};
+  }
+  std::vector<double> field_distance(const std::vector<double>& field,
+                                     const std::vector<double>& reference) const override {
+    if constexpr (HasField<M>) {
+      const auto d = M::field_distance(field, reference);
+      return {d.begin(), d.end()};
+    }
+    return {};
+  }
 
  private:
   M model_;

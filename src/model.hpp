@@ -63,6 +63,14 @@ concept Model = requires(const M& model, const typename M::State& state, double 
     } -> std::convertible_to<double>;  // s; a step of this size resolves the motion coarsely
 };
 
+/// A model on a mesh: what it is at places from 0 to 1 along it, equally spaced and equally weighted, so that
+/// different meshes can be compared; `field_distance` is the distance of the model between two such fields.
+template <class M>
+concept HasField = requires(const M& model, const typename M::State& state, const std::vector<double>& at) {
+  { model.field(state, at) } -> std::same_as<std::vector<double>>;
+  { M::field_distance(at, at) } -> std::same_as<std::array<double, M::metrics.size()>>;
+};
+
 /// A model whose motion is known in closed form.
 template <class M>
 concept HasExact = requires(const M& model, double t) {

@@ -112,10 +112,10 @@ class Study {
       studies.push_back(converge(runner_, scene, options, progress));
       if (studies.back().interrupted) return false;
       document.add(studies.back());
-      document.add_orders(studies.back());
+      document.add_orders(studies.back().scene.name, studies.back().orders);
       Document own(context_.catalogue, "bench");
       own.add(studies.back());
-      own.add_orders(studies.back());
+      own.add_orders(studies.back().scene.name, studies.back().orders);
       write_study(folder_, "converge-" + scene.name,
                   {orders_table(studies.back()), runs_table(studies.back(), "Runs")}, own,
                   convergence_figure(context_.catalogue, studies.back()), command("converge " + scene.name));

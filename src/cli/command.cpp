@@ -42,14 +42,6 @@ long whole(const std::string& option, const std::string& text, long most) {
   return value;
 }
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts;
-  std::stringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  if (!text.empty() && text.back() == ',') parts.emplace_back();
-  return parts;
-}
-
 /// Throws if what was printed could not be written, as on a full disk.
 void flush_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
@@ -68,6 +60,14 @@ void check_steps(const Request& request, const std::vector<Scene>& scenes) {
 }
 
 }  // namespace
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::stringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  if (!text.empty() && text.back() == ',') parts.emplace_back();
+  return parts;
+}
 
 double positive_number(const std::string& option, const std::string& text, const std::string& expected) {
   const double value = number(option, text, expected);

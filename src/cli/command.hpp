@@ -24,6 +24,7 @@ struct Request {
   std::vector<std::string> what;  ///< of `list`
   std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol;
   std::vector<std::string> set;
+  std::string refine;  ///< of `converge`
   std::string json, csv, out;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
 };
@@ -43,6 +44,9 @@ std::vector<Scene> load_scenes(const Context& context);
 void warn(const std::vector<Scene>& scenes);
 /// A positive number from the command line, in the unit that `expected` names.
 double positive_number(const std::string& option, const std::string& text, const std::string& expected);
+
+/// The parts of a list with commas; an empty text has none.
+std::vector<std::string> split(const std::string& text);
 
 /// Refuses output files that could not be written, before anything runs.
 void check_outputs(const Request& request);
@@ -67,6 +71,8 @@ void check_ladders(const Context& context, const std::vector<Scene>& scenes, con
 int list(Context& context);
 int run(Context& context);
 int converge(Context& context);
+/// `converge` with --refine.
+int refine(Context& context);
 int compare(Context& context);
 int drift(Context& context);
 int bench(Context& context);

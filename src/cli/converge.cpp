@@ -10,6 +10,7 @@ namespace gnomon::cli {
 
 int converge(Context& context) {
   const Request& request = context.request;
+  if (!request.refine.empty()) return refine(context);
   const StudyOptions options = study_options(request);
   const std::vector<Scene> scenes = load_scenes(context);
   check_ladders(context, scenes, options);
@@ -25,7 +26,7 @@ int converge(Context& context) {
   for (const Scene& scene : scenes) {
     studies.push_back(converge(runner, scene, options, progress));
     document.add(studies.back());
-    document.add_orders(studies.back());
+    document.add_orders(studies.back().scene.name, studies.back().orders);
     if (studies.back().interrupted) break;
   }
   progress.finish();
@@ -40,7 +41,7 @@ int converge(Context& context) {
     if (!request.out.empty()) {
       Document own(context.catalogue, "converge");
       own.add(study);
-      own.add_orders(study);
+      own.add_orders(study.scene.name, study.orders);
       for (const std::string& file : write_study(request.out, "converge-" + study.scene.name, {orders, runs},
                                                  own, convergence_figure(context.catalogue, study), ""))
         say(request, "wrote " + file);

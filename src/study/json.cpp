@@ -136,11 +136,11 @@ void Document::add(const SceneStudy& study) {
   for (const Row& row : study.rows) json_["runs"].push_back(run_json(study, row));
 }
 
-void Document::add_orders(const Convergence& study) {
-  for (const OrderRow& row : study.orders) {
+void Document::add_orders(const std::string& scene, const std::vector<OrderRow>& orders) {
+  for (const OrderRow& row : orders) {
     const ObservedOrder& order = row.order;
     Json json;
-    json["scene"] = study.scene.name;
+    json["scene"] = scene;
     json["integrator"] = row.scheme->name;
     json["metric"] = row.metric;
     json["observed"] = optional(order.observed);

@@ -15,7 +15,7 @@ class Document {
  public:
   Document(const Catalogue& catalogue, const std::string& command);
   void add(const SceneStudy& study);
-  void add_orders(const Convergence& study);
+  void add_orders(const std::string& scene, const std::vector<OrderRow>& orders);
   /// Adds "drifts", one a run and invariant.
   void add_drifts(const DriftStudy& study);
   nlohmann::ordered_json& json() { return json_; }
