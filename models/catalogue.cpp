@@ -1,5 +1,6 @@
 #include "models/catalogue.hpp"
 
+#include "models/planar_beam/read.hpp"
 #include "models/rigid_body/read.hpp"
 #include "models/rigid_body/yardstick.hpp"
 
@@ -10,6 +11,8 @@ void add_models(Catalogue& catalogue) {
   catalogue.models.push_back(rigid_body::entry);
   catalogue.scene_folders.push_back(root + "rigid_body/scenes");
   catalogue.study_files.push_back(root + "rigid_body/study.toml");
+  catalogue.models.push_back(planar_beam::entry);
+  catalogue.scene_folders.push_back(root + "planar_beam/scenes");
   catalogue.yardsticks.push_back(rigid_body::plain_cvode_yardstick);
   add_model_types(catalogue, Models{});
 }

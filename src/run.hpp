@@ -101,6 +101,15 @@ class Recorder {
   std::size_t count_ = 0;
 };
 
+/// The scheme's start; an implicit one is told how exactly to solve its equations.
+template <Model M, FixedStepOn<M> S>
+auto start_of(const M& model, const RunSpec& spec) {
+  if constexpr (requires { S::start(model, model.initial(), spec.newton_tol); })
+    return S::start(model, model.initial(), spec.newton_tol);
+  else
+    return S::start(model, model.initial());
+}
+
 /// The inner loop, from step n to step `to`. Stops at the first step that fails.
 template <Model M, FixedStepOn<M> S>
 [[gnu::noinline]] Status march(const M& model, typename S::template State<M>& state, long& n, long to,
@@ -125,7 +134,7 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
   if (plan.misses_break) result.flags.push_back("misses a break of the data");
   const long last = std::min(plan.count, spec.max_steps);
 
-  auto state = S::start(model, model.initial());
+  auto state = detail::start_of<M, S>(model, spec);
   auto checkpoint = state;
   const auto finite = [&](const auto& s) { return all_finite(model.flatten(S::view(model, s))); };
   detail::Recorder<M> recorder(model, result);

@@ -133,6 +133,12 @@ double Section::positive(std::string_view key, std::string_view expected) {
   return value;
 }
 
+int Section::integer(std::string_view key, int least, int most, std::string_view expected) {
+  const double value = number(key, expected);
+  if (value != std::floor(value) || value < least || value > most) fail(key, shown(key), expected);
+  return static_cast<int>(value);
+}
+
 std::vector<double> Section::numbers(std::string_view key, std::size_t count, std::string_view expected) {
   const toml::array* list = require(key, expected).as_array();
   if (!list || list->size() != count) fail(key, shown(key), expected);
@@ -194,6 +200,11 @@ std::vector<Section> Section::sections(std::string_view key) {
     tables.emplace_back(*entry.as_table(), fmt::format("{}[{}]", full(key), tables.size()), *source_);
   }
   return tables;
+}
+
+bool Section::is_table(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node && node->is_table();
 }
 
 std::string Section::exactly_one(std::string_view first, std::string_view second, std::string_view meaning) {

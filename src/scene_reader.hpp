@@ -30,6 +30,8 @@ class Section {
   bool has(std::string_view key) const;
   double number(std::string_view key, std::string_view expected);
   double number_or(std::string_view key, double fallback, std::string_view expected);
+  /// A whole number from `least` to `most`.
+  int integer(std::string_view key, int least, int most, std::string_view expected);
   double positive(std::string_view key, std::string_view expected);
   /// Exactly `count` finite numbers.
   std::vector<double> numbers(std::string_view key, std::size_t count, std::string_view expected);
@@ -45,6 +47,8 @@ class Section {
   std::optional<Section> section(std::string_view key);
   /// The tables of an array `[[key]]`, in their order; none when the key is absent.
   std::vector<Section> sections(std::string_view key);
+  /// Whether the key is there and a table.
+  bool is_table(std::string_view key) const;
   /// Exactly one of two keys must be there; returns it.
   std::string exactly_one(std::string_view first, std::string_view second, std::string_view meaning);
 

@@ -64,7 +64,8 @@ concept Scheme = requires {
 
 /// A scheme of equal steps on a model. Its `State` is everything it needs to go on; a copy of it is a
 /// checkpoint. `step` returns Status::ok, or why it could not (the state is then worthless); it allocates
-/// nothing.
+/// nothing. An implicit scheme's `start` may take the tolerance of its nonlinear equations as a third
+/// argument.
 template <class S, class M>
 concept FixedStepOn = Scheme<S> && Model<M> &&
     requires(const M& model, const typename M::State& start, double t, double h,

@@ -1,0 +1,68 @@
+#pragma once
+#include "integrators/beam/stepper.hpp"
+#include "src/scheme.hpp"
+
+namespace gnomon::beam {
+
+/// The implicit midpoint rule for the geometrically exact beam with the mean velocity of the step as unknown.
+template <Turning turning>
+struct MidpointStep {
+  template <BeamForm M>
+  using State = Stepper<M, turning>;
+
+  /// `newton_tol`: residual relative to the largest of inertia, internal and external force.
+  template <BeamForm M>
+  static State<M> start(const M& model, const typename M::State& state, double newton_tol = 1e-10) {
+    return State<M>(model, state, newton_tol);
+  }
+  template <BeamForm M>
+  static Status step(const M& model, State<M>& state, double t, double h) {
+    return state.step(model, t, h);
+  }
+  template <BeamForm M>
+  static typename M::State view(const M& model, const State<M>& state) {
+    return state.view(model);
+  }
+  template <BeamForm M>
+  static Cost cost(const M&, const State<M>& state, long steps) {
+    return {.steps = steps,
+            .rhs = state.evaluations,
+            .jacobians = state.factorizations,
+            .factorizations = state.factorizations,
+            .newton_iterations = state.iterations};
+  }
+};
+
+inline constexpr std::string_view midpoint_citation =
+    "the planar beam of the velocity-based formulation of E. and D. Zupan, Nonlinear Dynamics 95 (2019) "
+    "1379-1394; working note, sections on the numerical computation and the linearisation";
+
+struct BeamMidpoint : MidpointStep<Turning::documented> {
+  static constexpr SchemeInfo info{
+      .name = "beam-midpoint",
+      .family = "beam",
+      .summary = "the documented implicit midpoint scheme on the mean velocity; momenta exact, energy not",
+      .citation = midpoint_citation,
+      .form = "beam",
+      .orders = {{{"none", 2}, {"dead", 2}}},
+      .reversible = true,
+      .conserves_momentum = true,
+  };
+};
+
+struct BeamEnergyMomentum : MidpointStep<Turning::cayley> {
+  static constexpr SchemeInfo info{
+      .name = "beam-energy-momentum",
+      .family = "beam",
+      .summary =
+          "the same with rotations by the Cayley map and internal forces scaled to match: energy exact",
+      .citation = midpoint_citation,
+      .form = "beam",
+      .orders = {{{"none", 2}, {"dead", 2}}},
+      .reversible = true,
+      .conserves_energy = true,
+      .conserves_momentum = true,
+  };
+};
+
+}  // namespace gnomon::beam

@@ -1,0 +1,306 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <vector>
+
+#include "integrators/beam/element_chain.hpp"
+#include "integrators/beam/point_step.hpp"
+#include "models/planar_beam/statics.hpp"
+#include "src/status.hpp"
+
+namespace gnomon::beam {
+
+/// What a model offers to be run by these schemes: equal elements in a chain, points, loads, supports.
+template <class M>
+concept BeamForm = requires(const M& model, double t, double* out) {
+  M::order;
+  model.element();
+  { model.section() } -> std::convertible_to<planar_beam::CrossSection>;
+  { model.elements() } -> std::convertible_to<int>;
+  { model.point(0) } -> std::convertible_to<planar_beam::PointReference>;
+  model.held();
+  model.external_force(t, out);
+};
+
+/// The state of the scheme and the work space of its Newton iteration on the mean velocity vbar of a step. A
+/// step in parts, each of which is to be tested by itself: `begin`, `evaluate`, `linearise`, `correct`,
+/// `finish`. Only `start` allocates.
+template <BeamForm M, Turning turning>
+class Stepper {
+ public:
+  static constexpr int p = M::order;
+  using Vector = Eigen::VectorXd;
+  using Point = PointStep<turning>;
+
+  Stepper(const M& model, const typename M::State& state, double newton_tol)
+      : u(state.u),
+        v(state.v),
+        mean(state.v),
+        history(model.point_count()),
+        chain_(model.elements(), model.held()),
+        points_(model.point_count()),
+        tolerance_(newton_tol) {
+    const int n = model.unknowns();
+    for (Vector* vector : {&external_, &internal_, &inertia_, &residual_, &correction_, &trial_})
+      vector->setZero(n);
+    for (Vector& past : past_) past.setZero(n);
+    for (int e = 0; e < model.elements(); ++e)
+      for (int g = 0; g < p; ++g) {
+        const planar_beam::PointStrain at = model.strain_at(u.data(), e, g);
+        // d = R^T (e - e0) of a point is its slopes and d0.
+        history[e * p + g] = {
+            at.c * at.g1 + at.s * at.g2, at.c * at.g2 - at.s * at.g1, at.c, at.s, at.g1, at.g2, at.bending};
+      }
+    const planar_beam::CrossSection& C = model.section();
+    force_floor_ = 4.0 * std::numeric_limits<double>::epsilon() * std::max(C.EA, C.GA) *
+                   std::sqrt(static_cast<double>(model.nodes()));
+  }
+
+  typename M::State view(const M& model) const {
+    typename M::State state{u, v, Vector(3 * model.point_count())};
+    for (int k = 0; k < model.point_count(); ++k) {
+      const PointHistory& at = history[k];
+      state.strain.template segment<3>(3 * k) << at.g1 + model.point(k).e1, at.g2 + model.point(k).e2,
+          at.bending;
+    }
+    return state;
+  }
+
+  // A step is long enough to be called; inlined into the loops of all orders it takes minutes to compile.
+  [[gnu::noinline]] Status step(const M& model, double t, double h) {
+    model.external_force(t + 0.5 * h, external_.data());
+    // Roundoff of the inertia term, 2/h M vbar.
+    const planar_beam::CrossSection& C = model.section();
+    const double density = std::max(C.rhoA, C.rhoI / model.data().length);
+    inertia_floor_ = 4.0 * std::numeric_limits<double>::epsilon() * density * model.element().length *
+                     std::abs(2.0 / h) * v.norm();
+    length_ = model.data().length;
+    extrapolate(h);
+    if (!solve(model, h)) {
+      mean = v;
+      if (!solve(model, h) && !continue_in_step(model, h)) return Status::newton_failed;
+    }
+    finish(h);
+    return Status::ok;
+  }
+
+  /// Residual of the weak form at the present `mean`, from the state at t_n, for a step of size h; the
+  /// external force is that of `load`. Returns its norm; forces and, divided by the length of the beam,
+  /// moments.
+  [[gnu::noinline]] double evaluate(const M& model, double h) {
+    const auto& element = model.element();
+    const planar_beam::CrossSection section = model.section();
+    const double rate = 2.0 / h;
+    internal_.setZero();
+    inertia_.setZero();
+    for (int e = 0; e < model.elements(); ++e) {
+      const double* vbar = mean.data() + 3 * p * e;
+      const double* before = v.data() + 3 * p * e;
+      double* force = internal_.data() + 3 * p * e;
+      double* inertia = inertia_.data() + 3 * p * e;
+      for (int g = 0; g < p; ++g) {
+        double w1 = 0, w2 = 0, w3 = 0, omega = 0;
+        for (int a = 0; a <= p; ++a) {
+          w1 += element.slope[g][a] * vbar[3 * a];
+          w2 += element.slope[g][a] * vbar[3 * a + 1];
+          w3 += element.slope[g][a] * vbar[3 * a + 2];
+          omega += element.shape[g][a] * vbar[3 * a + 2];
+        }
+        const planar_beam::PointReference& r = model.point(e * p + g);
+        points_[e * p + g] = Point(history[e * p + g], r.e1, r.e2, section, h, w1, w2, w3, omega);
+        element.add_force(g, points_[e * p + g].force(section), force);
+      }
+      for (int a = 0; a <= p; ++a)
+        for (int b = 0; b <= p; ++b) {
+          const double m = rate * element.mass[a][b];
+          inertia[3 * a] += m * section.rhoA * (vbar[3 * b] - before[3 * b]);
+          inertia[3 * a + 1] += m * section.rhoA * (vbar[3 * b + 1] - before[3 * b + 1]);
+          inertia[3 * a + 2] += m * section.rhoI * (vbar[3 * b + 2] - before[3 * b + 2]);
+        }
+    }
+    for (int i : model.held()) internal_[i] = inertia_[i] = external_[i] = 0.0;
+    residual_ = inertia_ + internal_ - external_;
+    ++evaluations;
+    scale_ = std::max({norm(inertia_), norm(internal_), norm(external_)});
+    return norm(residual_);
+  }
+
+  /// The consistent tangent at the mean velocity that was evaluated last, with the inertia term
+  /// (2/h) int rho_A P_i P_j dx; factorised.
+  [[gnu::noinline]] void linearise(const M& model, double h) {
+    chain_.clear();
+    for (int e = 0; e < model.elements(); ++e) chain_.add(e, element_tangent(model, e, h));
+    chain_.factorise();
+    ++factorizations;
+  }
+  typename ElementChain<p>::Matrix element_tangent(const M& model, int e, double h) const {
+    const auto& element = model.element();
+    typename ElementChain<p>::Matrix matrix = ElementChain<p>::Matrix::Zero();
+    for (int g = 0; g < p; ++g)
+      element.add_tangent(g, points_[e * p + g].force_tangent(model.section(), h), matrix);
+    const planar_beam::CrossSection& section = model.section();
+    for (int a = 0; a <= p; ++a)
+      for (int b = 0; b <= p; ++b) {
+        const double m = 2.0 / h * element.mass[a][b];
+        matrix(3 * a, 3 * b) += m * section.rhoA;
+        matrix(3 * a + 1, 3 * b + 1) += m * section.rhoA;
+        matrix(3 * a + 2, 3 * b + 2) += m * section.rhoI;
+      }
+    return matrix;
+  }
+  /// Solves for the correction of `mean` with the tangent that was factorised last.
+  [[gnu::noinline]] const Vector& correct() {
+    correction_ = -residual_;
+    chain_.solve(correction_.data());
+    ++iterations;
+    return correction_;
+  }
+
+  /// Takes the step over, at the mean velocity that was evaluated last.
+  void finish(double h) {
+    const int n = static_cast<int>(u.size());
+    for (int i = 0; i < n; i += 3) {
+      u[i] += h * mean[i];
+      u[i + 1] += h * mean[i + 1];
+      u[i + 2] += turning == Turning::cayley ? 2.0 * std::atan(0.5 * h * mean[i + 2]) : h * mean[i + 2];
+    }
+    v = 2.0 * mean - v;
+    for (std::size_t k = 0; k < points_.size(); ++k) history[k] = points_[k].end();
+    past_[2].swap(past_[1]);
+    past_[1].swap(past_[0]);
+    past_[0] = mean;
+    known_ = h == past_step_ ? std::min(known_ + 1, 3) : 1;
+    past_step_ = h;
+  }
+
+  const Vector& residual() const { return residual_; }
+  double tolerance() const { return tolerance_; }
+  /// Sets the external force to that at time t.
+  void load(const M& model, double t) { model.external_force(t, external_.data()); }
+
+  Vector u, v;
+  Vector mean;  ///< vbar = (v_{n+1} + v_n)/2, the unknown
+  std::vector<PointHistory> history;
+  long evaluations = 0, factorizations = 0, iterations = 0;
+
+ private:
+  double norm(const Vector& force) const {
+    double places = 0.0, rotations = 0.0;
+    const int n = static_cast<int>(force.size());
+    for (int i = 0; i < n; i += 3) {
+      places += force[i] * force[i] + force[i + 1] * force[i + 1];
+      rotations += force[i + 2] * force[i + 2];
+    }
+    return std::sqrt(places + rotations / (length_ * length_));
+  }
+  double floor() const { return force_floor_ + inertia_floor_; }
+  double threshold() const { return std::max(tolerance_ * scale_, floor()); }
+
+  /// A start for Newton's iteration from the mean velocities of the last steps, which unlike v carry no
+  /// oscillation of period 2 h.
+  void extrapolate(double h) {
+    const int known = h == past_step_ ? known_ : 0;
+    if (known == 3)
+      mean = 3.0 * (past_[0] - past_[1]) + past_[2];
+    else if (known == 2)
+      mean = 2.0 * past_[0] - past_[1];
+    else
+      mean = v;
+    extrapolated_ = known >= 2;
+  }
+
+  /// Newton's iteration with line search. The tangent is kept while it reduces the residual by a hundred.
+  [[gnu::noinline]] bool solve(const M& model, double h) {
+    double size = evaluate(model, h);
+    if (extrapolated_ && !(size <= 1e-2 * scale_)) {
+      trial_ = mean;
+      mean = v;
+      const double plain = evaluate(model, h);
+      if (size < plain) {
+        mean = trial_;
+        size = evaluate(model, h);
+      } else {
+        size = plain;
+      }
+    }
+    extrapolated_ = false;
+    bool fresh = false, keep = false;
+    for (int k = 0; k < 40; ++k) {
+      if (!std::isfinite(size)) return false;
+      if (size <= floor() || (k > 0 && size <= threshold())) return polish(model, h, size);
+      if (!keep) {
+        linearise(model, h);
+        fresh = true;
+      }
+      const double before = size;
+      trial_ = mean;
+      correct();
+      double length = 1.0;
+      for (;; length *= 0.5) {
+        mean = trial_ + length * correction_;
+        size = evaluate(model, h);
+        if (size <= (1.0 - 1e-4 * length) * before || size <= floor()) break;
+        if (length < 1e-3) return false;
+        if (!fresh) break;
+      }
+      if (size > before && !fresh) {  // the old tangent does not serve any more
+        mean = trial_;
+        size = evaluate(model, h);
+        keep = false;
+        continue;
+      }
+      keep = length == 1.0 && size <= 1e-2 * before;
+      fresh = false;
+    }
+    return false;
+  }
+
+  /// One more correction by the tangent at hand, unless the residual is at roundoff: what is left of it would
+  /// be lost from the invariants in each step.
+  bool polish(const M& model, double h, double size) {
+    if (size <= floor()) return true;
+    trial_ = mean;
+    correct();
+    mean += correction_;
+    if (evaluate(model, h) <= size) return true;
+    mean = trial_;
+    evaluate(model, h);
+    return true;
+  }
+
+  /// Large steps: the equations of a smaller step from the same state, whose solutions lead to that of h. The
+  /// state advances by h at once or not at all.
+  bool continue_in_step(const M& model, double h) {
+    mean = v;
+    Vector& good = past_[2];  // overwritten after the step anyway
+    known_ = std::min(known_, 2);
+    double done = 0.0, part = 0.25;
+    for (int tries = 0; tries < 60 && done < 1.0; ++tries) {
+      good = mean;
+      const double next = std::min(1.0, done + part);
+      if (solve(model, next * h)) {
+        done = next;
+        part *= 1.5;
+      } else {
+        mean = good;
+        part *= 0.5;
+        if (part < 1e-3) return false;
+      }
+    }
+    return done >= 1.0;
+  }
+
+  ElementChain<p> chain_;
+  std::vector<Point> points_;
+  Vector external_, internal_, inertia_, residual_, correction_, trial_;
+  Vector past_[3];
+  int known_ = 0;
+  double past_step_ = 0.0;
+  bool extrapolated_ = false;
+  double tolerance_, scale_ = 0.0, length_ = 1.0;
+  double force_floor_ = 0.0, inertia_floor_ = 0.0;
+};
+
+}  // namespace gnomon::beam

@@ -1,0 +1,347 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "models/planar_beam/dae.hpp"
+#include "models/planar_beam/data.hpp"
+#include "models/planar_beam/element.hpp"
+#include "models/planar_beam/mass.hpp"
+#include "models/planar_beam/ode.hpp"
+#include "models/planar_beam/scales.hpp"
+#include "models/planar_beam/statics.hpp"
+#include "src/model.hpp"
+
+namespace gnomon::planar_beam {
+
+/// A planar geometrically exact beam of equal elements of order p, between supports and under dead loads.
+template <int p>
+class PlanarBeam {
+ public:
+  using State = planar_beam::State;
+  using Vector = Eigen::VectorXd;
+  static constexpr int order = p;
+  static constexpr std::string_view model_name = "planar_beam";
+  static constexpr std::string_view variant = std::array{"linear", "quadratic", "cubic", "quartic"}[p - 1];
+  static constexpr std::array<MetricInfo, 4> metrics{
+      MetricInfo{"displacement", "m", std::numeric_limits<double>::infinity()},
+      MetricInfo{"rotation", "rad", std::numbers::pi},
+      MetricInfo{"velocity", "m/s", std::numeric_limits<double>::infinity()},
+      MetricInfo{"angular_velocity", "rad/s", std::numeric_limits<double>::infinity()}};
+
+  explicit PlanarBeam(Data data)
+      : data_(std::move(data)), element_(data_.length / data_.elements), nodes_(data_.elements * p + 1) {
+    place_nodes();
+    place_points();
+    add_loads();
+    hold_ends();
+    initial_ = start_state();
+    scales_ = estimate_scales(data_, centre_, turning_inertia(), initial_kinetic_energy());
+  }
+
+  const Data& data() const { return data_; }
+  const Element<p>& element() const { return element_; }
+  const CrossSection& section() const { return data_.section; }
+  int elements() const { return data_.elements; }
+  int nodes() const { return nodes_; }
+  int unknowns() const { return 3 * nodes_; }
+  int point_count() const { return data_.elements * p; }
+  const PointReference& point(int k) const { return points_[k]; }
+  /// Positions (x, z) of the nodes at rest, one after the other, m.
+  const std::vector<double>& positions() const { return positions_; }
+  /// The centre of mass at rest, m.
+  const std::array<double, 2>& centre() const { return centre_; }
+  /// The unknowns that a support holds, ascending.
+  const std::vector<int>& held() const { return held_; }
+  const std::vector<int>& free() const { return free_; }
+
+  State initial() const { return initial_; }
+  std::string_view load_class() const {
+    return data_.loads.empty() && data_.gravity == 0.0 ? "none" : "dead";
+  }
+  double time_scale() const { return scales_.time; }
+  const Scales& scales() const { return scales_; }
+  std::vector<double> breaks() const {
+    std::vector<double> times;
+    for (const Load& load : loads_)
+      if (load.profile != Profile::constant) times.push_back(load.duration);
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return times;
+  }
+
+  /// Nodal forces of all loads at time t, N and N m.
+  void external_force(double t, double* force) const {
+    std::fill(force, force + unknowns(), 0.0);
+    for (const Load& load : loads_) add_load(load, load.factor(t), force);
+  }
+  /// Nodal forces that the strained beam exerts against u: the derivative of its strain energy by u.
+  void internal_force(const double* u, double* force) const {
+    std::fill(force, force + unknowns(), 0.0);
+    for (int e = 0; e < elements(); ++e)
+      for (int g = 0; g < p; ++g)
+        element_.add_force(g, strain_at(u, e, g).force(section()), force + 3 * p * e);
+  }
+  /// The derivative of the internal force of one element by its own nodal values.
+  typename Element<p>::Matrix element_tangent(const double* u, int e) const {
+    typename Element<p>::Matrix matrix = Element<p>::Matrix::Zero();
+    for (int g = 0; g < p; ++g) element_.add_tangent(g, strain_at(u, e, g).tangent(section()), matrix);
+    return matrix;
+  }
+  /// Density of unknown k of a node: rho A for places, rho I for the rotation.
+  double density(int k) const { return k < 2 ? section().rhoA : section().rhoI; }
+  /// M v, for all unknowns.
+  void momentum(const double* v, double* product) const {
+    std::fill(product, product + unknowns(), 0.0);
+    for (int e = 0; e < elements(); ++e)
+      for (int a = 0; a <= p; ++a)
+        for (int b = 0; b <= p; ++b)
+          for (int k = 0; k < 3; ++k)
+            product[3 * (e * p + a) + k] += element_.mass[a][b] * density(k) * v[3 * (e * p + b) + k];
+  }
+  /// Turns nodal forces into accelerations, those of held unknowns into 0.
+  void accelerate(double* force) const {
+    for (int i : held_) force[i] = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      mass_[k].solve(force + k);
+      for (int i = 0; i < nodes_; ++i) force[3 * i + k] /= density(k);
+    }
+  }
+  /// (epsilon, gamma, kappa) at all integration points.
+  Vector strains(const double* u) const {
+    Vector strain(3 * point_count());
+    for (int e = 0; e < elements(); ++e)
+      for (int g = 0; g < p; ++g) {
+        const PointStrain at = strain_at(u, e, g);
+        strain.template segment<3>(3 * (e * p + g)) << at.e1, at.e2, at.bending;
+      }
+    return strain;
+  }
+  PointStrain strain_at(const double* u, int e, int g) const {
+    const double* nodal = u + 3 * p * e;
+    double s1 = 0, s2 = 0, s3 = 0, rotation = 0;
+    for (int a = 0; a <= p; ++a) {
+      s1 += element_.slope[g][a] * nodal[3 * a];
+      s2 += element_.slope[g][a] * nodal[3 * a + 1];
+      s3 += element_.slope[g][a] * nodal[3 * a + 2];
+      rotation += element_.shape[g][a] * nodal[3 * a + 2];
+    }
+    return {points_[e * p + g], s1, s2, s3, rotation};
+  }
+
+  /// u, v, then the strains.
+  std::vector<double> flatten(const State& state) const {
+    std::vector<double> flat(state.u.begin(), state.u.end());
+    flat.insert(flat.end(), state.v.begin(), state.v.end());
+    flat.insert(flat.end(), state.strain.begin(), state.strain.end());
+    return flat;
+  }
+  State restore(const std::vector<double>& flat) const {
+    using Map = Eigen::Map<const Vector>;
+    const double* at = flat.data();
+    return {Map(at, unknowns()), Map(at + unknowns(), unknowns()),
+            Map(at + 2 * unknowns(), 3 * point_count())};
+  }
+  std::vector<Named> observe(const State& state) const {
+    return {{"u", {state.u.begin(), state.u.end()}}, {"v", {state.v.begin(), state.v.end()}}};
+  }
+
+  /// L2 norms over the beam, divided by sqrt(L): displacement [m], rotation [rad], and of their rates.
+  std::array<double, 4> distance(const State& state, const State& reference) const {
+    const Vector du = state.u - reference.u, dv = state.v - reference.v;
+    const auto norm = [&](const Vector& d, int from, int to) {
+      double sum = 0.0;
+      for (int k = from; k < to; ++k) sum += scalar_product(d.data() + k, d.data() + k);
+      return std::sqrt(std::max(sum, 0.0) / data_.length);
+    };
+    return {norm(du, 0, 2), norm(du, 2, 3), norm(dv, 0, 2), norm(dv, 2, 3)};
+  }
+
+  /// Energy, and the momenta of a beam that nothing holds or pushes; from the end of the last change of the
+  /// loads on.
+  std::vector<InvariantInfo> invariant_info() const {
+    const std::vector<double> times = breaks();
+    const double since = times.empty() ? 0.0 : times.back();
+    std::vector<InvariantInfo> infos{{"energy", 1, since, scales_.energy}};
+    if (is_free_at_last()) {
+      infos.push_back({"linear_momentum", 2, since, scales_.momentum});
+      infos.push_back({"angular_momentum", 1, since, scales_.angular_momentum});
+    }
+    return infos;
+  }
+  /// energy: kinetic and strain energy and the potential of the loads as they are in the end [J].
+  /// linear_momentum: (x, z) [N s]. angular_momentum: about the origin, along +y [N m s].
+  void invariants(double, const State& state, double* out) const {
+    *out++ = kinetic_energy(state.v) + strain_energy(state.strain) + load_potential(state.u);
+    if (!is_free_at_last()) return;
+    const std::array<double, 3> momenta = this->momenta(state);
+    std::copy(momenta.begin(), momenta.end(), out);
+  }
+
+  double kinetic_energy(const Vector& v) const {
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) sum += 0.5 * density(k) * scalar_product(v.data() + k, v.data() + k);
+    return sum;
+  }
+  double strain_energy(const Vector& strain) const {
+    const CrossSection& C = section();
+    double sum = 0.0;
+    for (int k = 0; k < point_count(); ++k) {
+      const double* e = strain.data() + 3 * k;
+      sum += 0.5 * element_.weight[k % p] * (C.EA * e[0] * e[0] + C.GA * e[1] * e[1] + C.EI * e[2] * e[2]);
+    }
+    return sum;
+  }
+  /// Minus the work of the loads that stay, from rest on.
+  double load_potential(const Vector& u) const {
+    double work = 0.0;
+    for (const Load& load : loads_)
+      if (load.final_factor() != 0.0)
+        for_load(load, load.final_factor(), [&](int i, double force) { work += force * u[i]; });
+    return -work;
+  }
+  /// Linear momentum (x, z) [N s] and angular momentum about the origin along +y [N m s].
+  std::array<double, 3> momenta(const State& state) const {
+    std::array<double, 3> sum{};
+    for (int e = 0; e < elements(); ++e)
+      for (int a = 0; a <= p; ++a)
+        for (int b = 0; b <= p; ++b) {
+          const int i = e * p + a, j = e * p + b;
+          const double m = element_.mass[a][b] * section().rhoA;
+          const double x = positions_[2 * i] + state.u[3 * i], z = positions_[2 * i + 1] + state.u[3 * i + 1];
+          const double vx = state.v[3 * j], vz = state.v[3 * j + 1];
+          sum[0] += m * vx;
+          sum[1] += m * vz;
+          sum[2] += m * (z * vx - x * vz) + element_.mass[a][b] * section().rhoI * state.v[3 * j + 2];
+        }
+    return sum;
+  }
+
+  OdeForm<PlanarBeam> ode() const { return OdeForm<PlanarBeam>(*this); }
+  DaeForm<PlanarBeam> dae() const { return DaeForm<PlanarBeam>(*this); }
+
+ private:
+  /// phi0 at arc length x.
+  double angle(double x) const { return data_.angle + data_.curvature * x; }
+
+  void place_nodes() {
+    positions_.resize(2 * static_cast<std::size_t>(nodes_));
+    const double half_turn = 0.5 * data_.curvature;
+    for (int i = 0; i < nodes_; ++i) {
+      // A chord of a circle: length sin(k x/2)/(k/2), direction that of the tangent at x/2.
+      const double x = data_.length * i / (nodes_ - 1), a = half_turn * x;
+      const double chord = std::abs(a) < 1e-4 ? x * (1.0 - a * a / 6.0) : std::sin(a) / half_turn;
+      positions_[2 * i] = data_.start[0] + chord * std::cos(data_.angle + a);
+      positions_[2 * i + 1] = data_.start[1] + chord * std::sin(data_.angle + a);
+    }
+    for (int k = 0; k < 2; ++k) {
+      double sum = 0.0;
+      for (int e = 0; e < elements(); ++e)
+        for (int a = 0; a <= p; ++a) sum += element_.load[a] * positions_[2 * (e * p + a) + k];
+      centre_[k] = sum / data_.length;
+    }
+  }
+  void place_points() {
+    for (int e = 0; e < elements(); ++e)
+      for (int g = 0; g < p; ++g) {
+        const double phi0 = angle((e + element_.at[g]) * element_.length);
+        const double c = std::cos(phi0), s = std::sin(phi0);
+        if (data_.geometry == Geometry::exact) {
+          points_.push_back({c, s, -1.0, 0.0, -phi0});
+          continue;
+        }
+        double d1 = 0.0, d2 = 0.0;
+        for (int a = 0; a <= p; ++a) {
+          d1 += element_.slope[g][a] * positions_[2 * (e * p + a)];
+          d2 += element_.slope[g][a] * positions_[2 * (e * p + a) + 1];
+        }
+        points_.push_back({d1, d2, -(c * d1 + s * d2), -(-s * d1 + c * d2), -phi0});
+      }
+  }
+  void add_loads() {
+    loads_ = data_.loads;
+    if (data_.gravity != 0.0)
+      loads_.push_back(
+          {Place::distributed, {0.0, -data_.gravity * section().rhoA}, 0.0, Profile::constant, 0.0});
+  }
+  void hold_ends() {
+    for (int end = 0; end < 2; ++end)
+      for (int k = 0; k < 3; ++k)
+        if (k < 2 ? data_.supports[end].place : data_.supports[end].rotation)
+          held_.push_back(3 * (end == 0 ? 0 : nodes_ - 1) + k);
+    for (int i = 0; i < unknowns(); ++i)
+      if (!std::binary_search(held_.begin(), held_.end(), i)) free_.push_back(i);
+    const auto& ends = data_.supports;
+    const MassBand<p> places(element_, elements(), ends[0].place, ends[1].place);
+    mass_ = {places, places, MassBand<p>(element_, elements(), ends[0].rotation, ends[1].rotation)};
+  }
+  State start_state() const {
+    State state{Vector::Zero(unknowns()), Vector(unknowns()), Vector()};
+    const double w = data_.angular_velocity;
+    for (int i = 0; i < nodes_; ++i) {
+      state.v[3 * i] = data_.velocity[0] + w * (positions_[2 * i + 1] - centre_[1]);
+      state.v[3 * i + 1] = data_.velocity[1] - w * (positions_[2 * i] - centre_[0]);
+      state.v[3 * i + 2] = w;
+    }
+    for (int i : held_) state.v[i] = 0.0;
+    state.strain = strains(state.u.data());
+    return state;
+  }
+
+  template <class Add>
+  void for_load(const Load& load, double factor, Add&& add) const {
+    const double f[3] = {factor * load.force[0], factor * load.force[1], factor * load.moment};
+    if (load.at == Place::distributed) {
+      for (int e = 0; e < elements(); ++e)
+        for (int a = 0; a <= p; ++a)
+          for (int k = 0; k < 3; ++k) add(3 * (e * p + a) + k, element_.load[a] * f[k]);
+    } else {
+      const int node = load.at == Place::start ? 0 : nodes_ - 1;
+      for (int k = 0; k < 3; ++k) add(3 * node + k, f[k]);
+    }
+  }
+  void add_load(const Load& load, double factor, double* force) const {
+    if (factor != 0.0) for_load(load, factor, [&](int i, double value) { force[i] += value; });
+  }
+  /// int a b dx of two interpolated fields, nodal values three apart.
+  double scalar_product(const double* a, const double* b) const {
+    double sum = 0.0;
+    for (int e = 0; e < elements(); ++e)
+      for (int i = 0; i <= p; ++i)
+        for (int j = 0; j <= p; ++j) sum += element_.mass[i][j] * a[3 * (e * p + i)] * b[3 * (e * p + j)];
+    return sum;
+  }
+  bool is_free_at_last() const {
+    return held_.empty() &&
+           std::all_of(loads_.begin(), loads_.end(), [](const Load& l) { return l.final_factor() == 0.0; });
+  }
+  double initial_kinetic_energy() const { return kinetic_energy(initial_.v); }
+  /// Moment of inertia about the centre of mass at rest.
+  double turning_inertia() const {
+    double sum = section().rhoI * data_.length;
+    for (int k = 0; k < 2; ++k) {
+      Vector arm(unknowns());
+      for (int i = 0; i < nodes_; ++i) arm[3 * i] = positions_[2 * i + k] - centre_[k];
+      sum += section().rhoA * scalar_product(arm.data(), arm.data());
+    }
+    return sum;
+  }
+
+  Data data_;
+  Element<p> element_;
+  int nodes_;
+  std::vector<double> positions_;
+  std::array<double, 2> centre_{};
+  std::vector<PointReference> points_;
+  std::vector<Load> loads_;
+  std::vector<int> held_, free_;
+  std::array<MassBand<p>, 3> mass_;
+  State initial_;
+  Scales scales_;
+};
+
+}  // namespace gnomon::planar_beam
