@@ -123,6 +123,8 @@ TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 steps"
       longer.t_end = 1e5 * h;
       const Scene scene = load_scene(catalogue, name, longer);
       for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
+        if (!catalogue.pair(info.name, *scene.model)) continue;
+        if (!catalogue.pair(info.name, *scene.model)) continue;
         INFO(info.name << " on " << name << ", h = " << h);
         const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(1e5 * h, h));
         // |A^T H|: the momentum that the scheme stores is constant, so this shows the attitude.
@@ -170,7 +172,7 @@ TEST_CASE("schemes: declared properties hold, and no others", "[rotation][invari
   Catalogue catalogue = full_catalogue();
   add_schemes<TypeList<RigidBody<Free>>>(catalogue, TypeList<ExactSteps>{});
   for (const SchemeInfo& info : catalogue.schemes) {
-    if (info.control) continue;
+    if (info.control || info.family == "beam") continue;
     INFO(info.name);
     const Properties seen = observe(catalogue, info);
     CHECK(seen.energy == (info.conserves_energy ? Seen::holds : Seen::fails));
@@ -186,6 +188,7 @@ TEST_CASE("schemes: conservation under gravity", "[rotation][invariants]") {
   for (const char* name : {"asymmetric-heavy-top", "kovalevskaya"}) {
     const Scene scene = load_scene(catalogue, name);
     for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
+      if (!catalogue.pair(info.name, *scene.model)) continue;
       const double order = info.order_for("gravity").value();
       double coarser = 0.0;
       for (double h : {0.0125, 0.00625, 0.003125}) {
@@ -210,6 +213,7 @@ TEST_CASE("schemes: the impulse of a moment fixed in space is kept", "[rotation]
   for (const char* name : {"space-moment", "rest-then-pushed"}) {
     const Scene scene = load_scene(catalogue, name);
     for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
+      if (!catalogue.pair(info.name, *scene.model)) continue;
       INFO(info.name << " on " << name);
       const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(scene.t_end, 0.01));
       CHECK(seen.at("momentum_balance").max_drift <= 5e-13);
