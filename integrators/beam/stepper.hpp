@@ -208,7 +208,12 @@ class Stepper {
       mean = 2.0 * past_[0] - past_[1];
     else
       mean = v;
-    extrapolated_ = known >= 2;
+    // Where v_n has been the better start lately, the other is tried only now and then.
+    if (known >= 2 && plain_ > 0) {
+      --plain_;
+      mean = v;
+    }
+    extrapolated_ = known >= 2 && plain_ == 0;
   }
 
   /// Newton's iteration with line search. The tangent is kept while it reduces the residual by a hundred.
@@ -223,6 +228,7 @@ class Stepper {
         size = evaluate(model, h);
       } else {
         size = plain;
+        plain_ = 16;
       }
     }
     extrapolated_ = false;
@@ -257,10 +263,10 @@ class Stepper {
     return false;
   }
 
-  /// One more correction by the tangent at hand, unless the residual is at roundoff: what is left of it would
-  /// be lost from the invariants in each step.
+  /// One more correction by the tangent at hand, unless the residual is far below what is asked or at
+  /// roundoff: what is left of it is lost from the invariants in each step.
   bool polish(const M& model, double h, double size) {
-    if (size <= floor()) return true;
+    if (size <= std::max(1e-2 * tolerance_ * scale_, floor())) return true;
     trial_ = mean;
     correct();
     mean += correction_;
@@ -299,6 +305,7 @@ class Stepper {
   int known_ = 0;
   double past_step_ = 0.0;
   bool extrapolated_ = false;
+  int plain_ = 0;  ///< steps for which Newton starts from v_n
   double tolerance_, scale_ = 0.0, length_ = 1.0;
   double force_floor_ = 0.0, inertia_floor_ = 0.0;
 };
