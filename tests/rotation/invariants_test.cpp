@@ -124,7 +124,6 @@ TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 steps"
       const Scene scene = load_scene(catalogue, name, longer);
       for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
         if (!catalogue.pair(info.name, *scene.model)) continue;
-        if (!catalogue.pair(info.name, *scene.model)) continue;
         INFO(info.name << " on " << name << ", h = " << h);
         const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(1e5 * h, h));
         // |A^T H|: the momentum that the scheme stores is constant, so this shows the attitude.

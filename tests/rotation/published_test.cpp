@@ -122,6 +122,7 @@ TEST_CASE("schemes: energy of the heavy symmetric top", "[rotation][published]")
   CHECK(std::abs(energy - (1250.0 + 20.0 * std::cos(0.05))) <= 1e-12 * energy);
   // Published: less than 0.1 % lost over 10 s with steps of 0.009 s.
   for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
+    if (!catalogue.pair(info.name, *scene.model)) continue;
     INFO(info.name);
     const double drift = scheme_drift(catalogue, scene, info.name, 0.009, "energy");
     CHECK(drift <= 1e-3);
