@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -58,9 +59,28 @@ struct Load {
   }
 };
 
-/// What an end is held by: pinned holds the place, clamped the rotation too.
+/// A prescribed rotation s(t) about +y, a ramp: to t/over, then `to`; at rest before t = 0. Its rate jumps at
+/// 0 and at `over`.
+struct Motion {
+  double to = 0.0;    ///< rad
+  double over = 1.0;  ///< s
+
+  double value(double t) const { return t <= 0.0 ? 0.0 : t < over ? to * (t / over) : to; }
+  /// s'(t-) and s'(t+), rad/s.
+  double rate_before(double t) const { return t > 0.0 && t <= over ? to / over : 0.0; }
+  double rate_after(double t) const { return t >= 0.0 && t < over ? to / over : 0.0; }
+  /// A break that is nearer to t than `tolerance`, else t: for times that are multiples of a step.
+  double snapped(double t, double tolerance) const {
+    if (std::abs(t) <= tolerance) return 0.0;
+    return std::abs(t - over) <= tolerance ? over : t;
+  }
+};
+
+/// What an end is held by: pinned holds the place, clamped the rotation too, a motion
+/// holds the place and prescribes the rotation.
 struct Support {
   bool place = false, rotation = false;
+  std::optional<Motion> motion{};
 };
 
 /// Where the initial tangent comes from: from the nodes between which the element interpolates, or exactly

@@ -55,9 +55,28 @@ class PlanarBeam {
   const std::vector<double>& positions() const { return positions_; }
   /// The centre of mass at rest, m.
   const std::array<double, 2>& centre() const { return centre_; }
-  /// The unknowns that a support holds, ascending.
+  /// The unknowns that a support holds or prescribes, ascending.
   const std::vector<int>& held() const { return held_; }
   const std::vector<int>& free() const { return free_; }
+  /// How unknown i moves, if a support prescribes it.
+  const Motion* prescribed(int i) const {
+    if (i % 3 != 2 || (i != 2 && i != unknowns() - 1)) return nullptr;
+    const Support& support = data_.supports[i == 2 ? 0 : 1];
+    return support.motion ? &*support.motion : nullptr;
+  }
+  bool is_driven() const { return data_.supports[0].motion || data_.supports[1].motion; }
+  /// Rates of the nodes' rotations at a unit jump of the rate that support 0 or 1 prescribes: 1 at that node,
+  /// -M_ff^-1 M_fc elsewhere; empty where nothing is prescribed.
+  const Vector& jump_response(int end) const { return responses_[end]; }
+  /// Turns the velocities from the limit before a jump of the prescribed rates at time t into that after it.
+  void jump(double t, double* v) const {
+    for (int end = 0; end < 2; ++end)
+      if (const auto& motion = data_.supports[end].motion) {
+        const double change = motion->rate_after(t) - motion->rate_before(t);
+        if (change != 0.0)
+          for (int i = 0; i < nodes_; ++i) v[3 * i + 2] += change * responses_[end][i];
+      }
+  }
 
   State initial() const { return initial_; }
   std::string_view load_class() const {
@@ -69,6 +88,8 @@ class PlanarBeam {
     std::vector<double> times;
     for (const Load& load : loads_)
       if (load.profile != Profile::constant) times.push_back(load.duration);
+    for (const Support& support : data_.supports)
+      if (support.motion) times.push_back(support.motion->over);
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
@@ -173,10 +194,12 @@ class PlanarBeam {
     }
     return infos;
   }
-  /// energy: kinetic and strain energy and the potential of the loads as they are in the end [J].
-  /// linear_momentum: (x, z) [N s]. angular_momentum: about the origin, along +y [N m s].
-  void invariants(double, const State& state, double* out) const {
-    *out++ = kinetic_energy(state.v) + strain_energy(state.strain) + load_potential(state.u);
+  /// energy: kinetic and strain energy and the potential of the loads as they are in the end [J]; where a
+  /// prescribed rate jumps, after the jump. linear_momentum: (x, z) [N s]. angular_momentum: about the
+  /// origin, along +y [N m s].
+  void invariants(double t, const State& state, double* out) const {
+    *out++ = kinetic_energy(state.v) + energy_of_jump(t, state.v) + strain_energy(state.strain) +
+             load_potential(state.u);
     if (!is_free_at_last()) return;
     const std::array<double, 3> momenta = this->momenta(state);
     std::copy(momenta.begin(), momenta.end(), out);
@@ -195,6 +218,29 @@ class PlanarBeam {
       sum += 0.5 * element_.weight[k % p] * (C.EA * e[0] * e[0] + C.GA * e[1] * e[1] + C.EI * e[2] * e[2]);
     }
     return sum;
+  }
+  /// What the impulse of a jump of the prescribed rates at time t adds to the kinetic energy.
+  double energy_of_jump(double t, const Vector& v) const {
+    if (!is_driven()) return 0.0;
+    double jumps[2] = {0.0, 0.0};
+    for (int end = 0; end < 2; ++end)
+      if (const auto& motion = data_.supports[end].motion) {
+        const double at = motion->snapped(t, 1e-9 * motion->over);
+        jumps[end] = motion->rate_after(at) - motion->rate_before(at);
+      }
+    if (jumps[0] == 0.0 && jumps[1] == 0.0) return 0.0;
+    // (v + r j)^T M (v + r j)/2 - v^T M v/2 with the jumps r j of the nodes' angular velocities
+    double sum = 0.0;
+    const auto jump_at = [&](int i) {
+      return (jumps[0] == 0.0 ? 0.0 : jumps[0] * responses_[0][i]) +
+             (jumps[1] == 0.0 ? 0.0 : jumps[1] * responses_[1][i]);
+    };
+    for (int e = 0; e < elements(); ++e)
+      for (int a = 0; a <= p; ++a)
+        for (int b = 0; b <= p; ++b)
+          sum +=
+              element_.mass[a][b] * jump_at(e * p + a) * (v[3 * (e * p + b) + 2] + 0.5 * jump_at(e * p + b));
+    return density(2) * sum;
   }
   /// Minus the work of the loads that stay, from rest on.
   double load_potential(const Vector& u) const {
@@ -269,6 +315,8 @@ class PlanarBeam {
           {Place::distributed, {0.0, -data_.gravity * section().rhoA}, 0.0, Profile::constant, 0.0});
   }
   void hold_ends() {
+    for (Support& support : data_.supports)
+      if (support.motion) support.place = support.rotation = true;
     for (int end = 0; end < 2; ++end)
       for (int k = 0; k < 3; ++k)
         if (k < 2 ? data_.supports[end].place : data_.supports[end].rotation)
@@ -278,6 +326,16 @@ class PlanarBeam {
     const auto& ends = data_.supports;
     const MassBand<p> places(element_, elements(), ends[0].place, ends[1].place);
     mass_ = {places, places, MassBand<p>(element_, elements(), ends[0].rotation, ends[1].rotation)};
+    for (int end = 0; end < 2; ++end)
+      if (ends[end].motion) responses_[end] = response_to(end == 0 ? 0 : nodes_ - 1);
+  }
+  Vector response_to(int driven) const {
+    Vector unit = Vector::Zero(unknowns()), forces(unknowns()), response(nodes_);
+    unit[3 * driven + 2] = 1.0;
+    momentum(unit.data(), forces.data());
+    accelerate(forces.data());
+    for (int i = 0; i < nodes_; ++i) response[i] = i == driven ? 1.0 : -forces[3 * i + 2];
+    return response;
   }
   State start_state() const {
     State state{Vector::Zero(unknowns()), Vector(unknowns()), Vector()};
@@ -340,6 +398,7 @@ class PlanarBeam {
   std::vector<Load> loads_;
   std::vector<int> held_, free_;
   std::array<MassBand<p>, 3> mass_;
+  std::array<Vector, 2> responses_;
   State initial_;
   Scales scales_;
 };

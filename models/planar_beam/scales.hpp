@@ -47,6 +47,11 @@ inline Scales estimate_scales(const Data& data, const std::array<double, 2>& cen
   }
   energy += (impulse[0] * impulse[0] + impulse[1] * impulse[1]) / (2.0 * mass) +
             impulse[2] * impulse[2] / (2.0 * inertia);
+  for (int end = 0; end < 2; ++end)
+    if (const auto& motion = data.supports[end].motion) {  // turned like a rigid body round that end
+      const double rate = motion->to / motion->over;
+      energy += 0.5 * (inertia + mass * L * L / 4.0) * rate * rate;
+    }
   energy += weight * (held ? std::min(L, weight * L * L * L / (8.0 * s.EI) + weight * L / s.GA)
                            : 0.5 * std::abs(data.gravity) * data.horizon * data.horizon);
   if (held && !data.supports[0].rotation && !data.supports[1].rotation &&
