@@ -22,6 +22,8 @@ class AnyModel {
   virtual std::string_view load_class() const = 0;
   virtual double time_scale() const = 0;
   virtual std::vector<Named> observe(const std::vector<double>& state) const = 0;
+  /// Empty where the model has none.
+  virtual std::vector<Probe> probes(const std::vector<double>& state) const = 0;
   /// Values of all invariants one after the other.
   virtual std::vector<double> invariants(double t, const std::vector<double>& state) const = 0;
   virtual std::vector<double> distance(const std::vector<double>& state,
@@ -51,6 +53,12 @@ class ModelBox final : public AnyModel {
   double time_scale() const override { return model_.time_scale(); }
   std::vector<Named> observe(const std::vector<double>& state) const override {
     return model_.observe(model_.restore(state));
+  }
+  std::vector<Probe> probes(const std::vector<double>& state) const override {
+    if constexpr (HasProbes<M>)
+      return model_.probes(model_.restore(state));
+    else
+      return {};
   }
   std::vector<double> invariants(double t, const std::vector<double>& state) const override {
     std::size_t count = 0;

@@ -8,10 +8,16 @@
 
 namespace gnomon {
 
-/// A named list of numbers: one component class of a state, or a probe.
+/// A named list of numbers: one component class of a state.
 struct Named {
   std::string name;
   std::vector<double> values;
+};
+
+/// A place of a model at which a state is looked at: named components.
+struct Probe {
+  std::string name;
+  std::vector<std::pair<std::string, double>> components;
 };
 
 /// A quantity that the exact motion keeps. Its drift is |value - initial value| / scale, a norm for a vector.
@@ -38,7 +44,7 @@ struct Exact {
 
 /// The one model interface. A model is a plain value; what else it can do it declares by the forms it offers:
 /// `ode()` (src/ode.hpp), `dae()`, the inertia and moment of a rotation (integrators/rotation/rotation.hpp),
-/// `exact(t)`.
+/// `exact(t)`, `probes(state)`.
 template <class M>
 concept Model = requires(const M& model, const typename M::State& state, double t, double* out,
                          const std::vector<double>& flat) {
@@ -75,6 +81,12 @@ concept HasField = requires(const M& model, const typename M::State& state, cons
 template <class M>
 concept HasExact = requires(const M& model, double t) {
   { model.exact(t) } -> std::same_as<Exact<M>>;
+};
+
+/// A model with places to look at.
+template <class M>
+concept HasProbes = requires(const M& model, const typename M::State& state) {
+  { model.probes(state) } -> std::same_as<std::vector<Probe>>;
 };
 
 }  // namespace gnomon

@@ -148,7 +148,7 @@ std::vector<ShippedScene> shipped_scenes(const Catalogue& catalogue) {
 
 Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, const SceneChanges& changes) {
   const std::string path = find_scene(catalogue, name_or_path);
-  SceneSource source{path, {}};
+  SceneSource source{path, {}, std::filesystem::path(path).parent_path().string()};
   if (path != name_or_path) source.file = std::filesystem::path(path).filename().string();
 
   toml::table table = parse_file(path);

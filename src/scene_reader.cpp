@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 
 #include "src/output/text.hpp"
@@ -37,7 +38,7 @@ std::string shown_value(const toml::node& node) {
     for (const auto& entry : entries) joined += (joined.empty() ? "" : ", ") + text(entry);
     return joined;
   };
-  if (const auto* text = node.as_string()) return quoted(text->get());
+  if (const auto* text = node.as_string()) return gnomon::quoted(text->get());
   if (const auto* whole = node.as_integer()) return fmt::format("{}", whole->get());
   if (const auto* real = node.as_floating_point()) {
     const std::string digits = fmt::format("{}", real->get());
@@ -91,6 +92,10 @@ std::string Section::shown(std::string_view key) const {
   if (!node) return "nothing";
   const std::string text = output::plain_text(shown_value(*node));
   return output::display_columns(text) > 60 ? output::first_columns(text, 57) + "..." : text;
+}
+
+std::string Section::beside(const std::string& name) const {
+  return (std::filesystem::path(source_->folder) / name).string();
 }
 
 bool Section::has(std::string_view key) const { return table_->contains(key); }

@@ -18,6 +18,7 @@ namespace gnomon {
 struct SceneSource {
   std::string file;                              ///< as the user wrote it
   std::map<std::string, std::string> overrides;  ///< key path -> the --set option that wrote it
+  std::string folder{};                          ///< of the file; other files are named relative to it
 };
 
 /// One table of a scene file, read strictly: every key that is asked for is checked for type and range, and
@@ -62,6 +63,8 @@ class Section {
 
   /// Reports a value of this table that is wrong for a reason only the model knows.
   [[noreturn]] void fail(std::string_view key, std::string_view found, std::string_view expected) const;
+  /// The path of another file that the scene names: relative to the scene's folder.
+  std::string beside(const std::string& name) const;
   /// The value of a key as it stands in the file, shortened for messages.
   std::string shown(std::string_view key) const;
 

@@ -21,16 +21,11 @@ class ElementChain {
   ElementChain(int elements, std::vector<int> held)
       : ends_(elements + 1), inside_(p > 1 ? elements : 0), held_(std::move(held)) {}
 
-  void clear() { ends_.clear(); }
-
-  /// Adds the matrix of element e, its unknowns node by node. Once an element between `clear` and
-  /// `factorise`.
+  /// Adds the matrix of element e, its unknowns node by node. Before `factorise` once for each element, from
+  /// the first to the last.
   void add(int e, const Matrix& K) {
     if constexpr (p == 1) {
-      ends_.diagonal[e] += K.template topLeftCorner<3, 3>();
-      ends_.upper[e] = K.template topRightCorner<3, 3>();
-      ends_.lower[e + 1] = K.template bottomLeftCorner<3, 3>();
-      ends_.diagonal[e + 1] = K.template bottomRightCorner<3, 3>();
+      add_ends(e, K);
     } else {
       Inside& in = inside_[e];
       in.lu.compute(K.template block<inner, inner>(3, 3));
@@ -41,10 +36,10 @@ class ElementChain {
       to_inner.template rightCols<3>() = K.template block<inner, 3>(3, 3 * p);
       in.follow = in.lu.solve(to_inner);
       const Eigen::Matrix<double, 6, 6> gone = in.from_inner * in.follow;
-      ends_.diagonal[e] += K.template topLeftCorner<3, 3>() - gone.template topLeftCorner<3, 3>();
-      ends_.upper[e] = K.template topRightCorner<3, 3>() - gone.template topRightCorner<3, 3>();
-      ends_.lower[e + 1] = K.template bottomLeftCorner<3, 3>() - gone.template bottomLeftCorner<3, 3>();
-      ends_.diagonal[e + 1] = K.template bottomRightCorner<3, 3>() - gone.template bottomRightCorner<3, 3>();
+      Eigen::Matrix<double, 6, 6> ends;
+      ends << K.template topLeftCorner<3, 3>(), K.template topRightCorner<3, 3>(),
+          K.template bottomLeftCorner<3, 3>(), K.template bottomRightCorner<3, 3>();
+      add_ends(e, ends - gone);
     }
   }
 
@@ -86,6 +81,16 @@ class ElementChain {
   }
 
  private:
+  void add_ends(int e, const Eigen::Matrix<double, 6, 6>& K) {
+    BlockTridiagonal::Row &here = ends_.rows[e], &next = ends_.rows[e + 1];
+    if (e == 0)
+      here.diagonal = K.template topLeftCorner<3, 3>();
+    else
+      here.diagonal += K.template topLeftCorner<3, 3>();
+    here.upper = K.template topRightCorner<3, 3>();
+    next.lower = K.template bottomLeftCorner<3, 3>();
+    next.diagonal = K.template bottomRightCorner<3, 3>();
+  }
   struct Inside {
     Eigen::PartialPivLU<Eigen::Matrix<double, (inner > 0 ? inner : 1), (inner > 0 ? inner : 1)>> lu;
     Eigen::Matrix<double, 6, (inner > 0 ? inner : 1)> from_inner;

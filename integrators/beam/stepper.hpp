@@ -21,6 +21,8 @@ concept BeamForm = requires(const M& model, double t, double* out) {
   { model.elements() } -> std::convertible_to<int>;
   { model.point(0) } -> std::convertible_to<planar_beam::PointReference>;
   model.held();
+  { model.prescribed(0) } -> std::convertible_to<const planar_beam::Motion*>;
+  model.jump(t, out);
   model.external_force(t, out);
 };
 
@@ -53,6 +55,9 @@ class Stepper {
         history[e * p + g] = {
             at.c * at.g1 + at.s * at.g2, at.c * at.g2 - at.s * at.g1, at.c, at.s, at.g1, at.g2, at.bending};
       }
+    for (int i : model.held())
+      if (const planar_beam::Motion* motion = model.prescribed(i)) driven_.push_back({i, *motion});
+    length_ = model.data().length;
     const planar_beam::CrossSection& C = model.section();
     force_floor_ = 4.0 * std::numeric_limits<double>::epsilon() * std::max(C.EA, C.GA) *
                    std::sqrt(static_cast<double>(model.nodes()));
@@ -71,12 +76,16 @@ class Stepper {
   // A step is long enough to be called; inlined into the loops of all orders it takes minutes to compile.
   [[gnu::noinline]] Status step(const M& model, double t, double h) {
     model.external_force(t + 0.5 * h, external_.data());
+    time_ = t;
+    if (!driven_.empty()) {
+      for (const Driven& end : driven_) time_ = end.motion.snapped(time_, nearby * h);
+      model.jump(time_, v.data());
+    }
     // Roundoff of the inertia term, 2/h M vbar.
     const planar_beam::CrossSection& C = model.section();
     const double density = std::max(C.rhoA, C.rhoI / model.data().length);
     inertia_floor_ = 4.0 * std::numeric_limits<double>::epsilon() * density * model.element().length *
                      std::abs(2.0 / h) * v.norm();
-    length_ = model.data().length;
     extrapolate(h);
     if (!solve(model, h)) {
       mean = v;
@@ -130,7 +139,6 @@ class Stepper {
   /// The consistent tangent at the mean velocity that was evaluated last, with the inertia term
   /// (2/h) int rho_A P_i P_j dx; factorised.
   [[gnu::noinline]] void linearise(const M& model, double h) {
-    chain_.clear();
     for (int e = 0; e < model.elements(); ++e) chain_.add(e, element_tangent(model, e, h));
     chain_.factorise();
     ++factorizations;
@@ -167,6 +175,11 @@ class Stepper {
       u[i + 2] += turning == Turning::cayley ? 2.0 * std::atan(0.5 * h * mean[i + 2]) : h * mean[i + 2];
     }
     v = 2.0 * mean - v;
+    for (const Driven& end : driven_) {
+      const double t = end.motion.snapped(time_ + h, nearby * h);
+      u[end.unknown] = end.motion.value(t);
+      v[end.unknown] = end.motion.rate_before(t);
+    }
     for (std::size_t k = 0; k < points_.size(); ++k) history[k] = points_[k].end();
     past_[2].swap(past_[1]);
     past_[1].swap(past_[0]);
@@ -186,6 +199,24 @@ class Stepper {
   long evaluations = 0, factorizations = 0, iterations = 0;
 
  private:
+  struct Driven {
+    int unknown;
+    planar_beam::Motion motion;
+  };
+  static constexpr double nearby = 1e-6;  ///< steps; times that are nearer to a break are meant to be there
+
+  /// Sets the mean angular velocities of driven ends, so that the rotation at the end of the step is the
+  /// prescribed one, and the velocity that the inertia term sees before the step, so that the acceleration is
+  /// (s'(t_{n+1}-) - s'(t_n+))/h.
+  void drive(double h) {
+    for (const Driven& end : driven_) {
+      const double t = end.motion.snapped(time_ + h, nearby * h);
+      const double turn = end.motion.value(t) - end.motion.value(time_);
+      const double rate = turning == Turning::cayley ? 2.0 / h * std::tan(0.5 * turn) : turn / h;
+      mean[end.unknown] = rate;
+      v[end.unknown] = rate - 0.5 * (end.motion.rate_before(t) - end.motion.rate_after(time_));
+    }
+  }
   double norm(const Vector& force) const {
     double places = 0.0, rotations = 0.0;
     const int n = static_cast<int>(force.size());
@@ -218,10 +249,12 @@ class Stepper {
 
   /// Newton's iteration with line search. The tangent is kept while it reduces the residual by a hundred.
   [[gnu::noinline]] bool solve(const M& model, double h) {
+    drive(h);
     double size = evaluate(model, h);
     if (extrapolated_ && !(size <= 1e-2 * scale_)) {
       trial_ = mean;
       mean = v;
+      drive(h);
       const double plain = evaluate(model, h);
       if (size < plain) {
         mean = trial_;
@@ -300,10 +333,11 @@ class Stepper {
 
   ElementChain<p> chain_;
   std::vector<Point> points_;
+  std::vector<Driven> driven_;
   Vector external_, internal_, inertia_, residual_, correction_, trial_;
   Vector past_[3];
   int known_ = 0;
-  double past_step_ = 0.0;
+  double past_step_ = 0.0, time_ = 0.0;
   bool extrapolated_ = false;
   int plain_ = 0;  ///< steps for which Newton starts from v_n
   double tolerance_, scale_ = 0.0, length_ = 1.0;

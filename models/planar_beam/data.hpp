@@ -99,6 +99,7 @@ struct Data {
   Geometry geometry = Geometry::interpolated;
   std::array<double, 2> velocity{0.0, 0.0};  ///< of the centre of mass, m/s
   double angular_velocity = 0.0;             ///< about +y, rad/s
+  std::vector<double> u, v;                  ///< initial nodal values as in State; empty: rigid, unstrained
   std::array<Support, 2> supports{};         ///< of the start and the end
   std::vector<Load> loads;
   double horizon = 1.0;  ///< s, the time the scene runs to; sets the scale of what a constant load moves

@@ -40,7 +40,8 @@ class PlanarBeam {
     add_loads();
     hold_ends();
     initial_ = start_state();
-    scales_ = estimate_scales(data_, centre_, turning_inertia(), initial_kinetic_energy());
+    scales_ = estimate_scales(data_, centre_, turning_inertia(),
+                              kinetic_energy(initial_.v) + strain_energy(initial_.strain));
   }
 
   const Data& data() const { return data_; }
@@ -169,6 +170,14 @@ class PlanarBeam {
   }
   std::vector<Named> observe(const State& state) const {
     return {{"u", {state.u.begin(), state.u.end()}}, {"v", {state.v.begin(), state.v.end()}}};
+  }
+
+  /// Displacement (x, z) [m] and rotation phi [rad] of both ends.
+  std::vector<Probe> probes(const State& state) const {
+    const auto at = [&](const char* name, int i) {
+      return Probe{name, {{"x", state.u[i]}, {"z", state.u[i + 1]}, {"phi", state.u[i + 2]}}};
+    };
+    return {at("start", 0), at("end", unknowns() - 3)};
   }
 
   /// L2 norms over the beam, divided by sqrt(L): displacement [m], rotation [rad], and of their rates.
@@ -339,6 +348,12 @@ class PlanarBeam {
   }
   State start_state() const {
     State state{Vector::Zero(unknowns()), Vector(unknowns()), Vector()};
+    if (!data_.u.empty()) {
+      state.u = Eigen::Map<const Vector>(data_.u.data(), unknowns());
+      state.v = Eigen::Map<const Vector>(data_.v.data(), unknowns());
+      state.strain = strains(state.u.data());
+      return state;
+    }
     const double w = data_.angular_velocity;
     for (int i = 0; i < nodes_; ++i) {
       state.v[3 * i] = data_.velocity[0] + w * (positions_[2 * i + 1] - centre_[1]);
@@ -377,7 +392,6 @@ class PlanarBeam {
     return held_.empty() &&
            std::all_of(loads_.begin(), loads_.end(), [](const Load& l) { return l.final_factor() == 0.0; });
   }
-  double initial_kinetic_energy() const { return kinetic_energy(initial_.v); }
   /// Moment of inertia about the centre of mass at rest.
   double turning_inertia() const {
     double sum = section().rhoI * data_.length;

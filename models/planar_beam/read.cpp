@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "models/planar_beam/planar_beam.hpp"
+#include "models/planar_beam/saved_state.hpp"
 #include "src/scene_reader.hpp"
 
 namespace gnomon::planar_beam {
@@ -55,21 +57,55 @@ void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
                       {"geometry", geometry}};
 }
 
+/// The prescribed rotation of an end.
+Motion read_motion(Table& end, Json& resolved) {
+  std::optional<Table> rotation = end.section("rotation");
+  if (!rotation) end.fail("rotation", "nothing", "a table { kind = \"ramp\", to = .., over = .. } (rad, s)");
+  const std::string kind = rotation->one_of("kind", {"ramp"});
+  rotation->only({"kind", "to", "over"}, fmt::format("kind \"{}\"", kind));
+  Motion motion;
+  motion.to = rotation->number("to", "a finite number (about +y, rad)");
+  motion.over = rotation->positive("over", "a positive number (s)");
+  resolved["rotation"] = {{"kind", kind}, {"to", motion.to}, {"over", motion.over}};
+  return motion;
+}
+
+Support read_support(Table& supports, const char* key, Json& resolved) {
+  std::string kind = "free";
+  Support support;
+  if (!supports.has(key)) {
+    resolved = kind;
+    return support;
+  }
+  const std::vector<std::string> kinds{"free", "pinned", "clamped"};
+  if (supports.is_table(key)) {
+    Table end = *supports.section(key);
+    kind = end.one_of("kind", {"free", "pinned", "clamped", "rotated"});
+    const bool rotated = kind == "rotated";
+    end.only(rotated ? std::vector<std::string>{"kind", "rotation"} : std::vector<std::string>{"kind"},
+             fmt::format("kind \"{}\"", kind));
+    if (rotated) {
+      resolved = {{"kind", kind}};
+      return {true, true, read_motion(end, resolved)};
+    }
+  } else {
+    const std::string expected =
+        choices_text(kinds) + ", or a table { kind = \"rotated\", rotation = { .. } }";
+    kind = supports.text(key, expected);
+    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+      supports.fail(key, supports.shown(key), expected);
+  }
+  resolved = kind;
+  return {kind != "free", kind == "clamped", std::nullopt};
+}
+
 void read_supports(Table& root, Data& data, Json& resolved) {
-  std::string kinds[2] = {"free", "free"};
+  Json& both = resolved["supports"] = {{"start", "free"}, {"end", "free"}};
   if (std::optional<Table> supports = root.section("supports")) {
     supports->only({"start", "end"});
-    const char* ends[2] = {"start", "end"};
-    for (int k = 0; k < 2; ++k) {
-      if (!supports->has(ends[k])) continue;
-      if (supports->is_table(ends[k]))
-        supports->fail(ends[k], supports->shown(ends[k]),
-                       "one of free, pinned, clamped (this version has no rotated supports)");
-      kinds[k] = supports->one_of(ends[k], {"free", "pinned", "clamped"});
-      data.supports[k] = {kinds[k] != "free", kinds[k] == "clamped"};
-    }
+    data.supports[0] = read_support(*supports, "start", both["start"]);
+    data.supports[1] = read_support(*supports, "end", both["end"]);
   }
-  resolved["supports"] = {{"start", kinds[0]}, {"end", kinds[1]}};
 }
 
 void read_profile(Table& table, Load& load, Json& resolved) {
@@ -111,21 +147,35 @@ void read_loads(Table& root, Data& data, Json& resolved) {
 }
 
 void read_initial(Table& root, Data& data, Json& resolved) {
+  Json& given = resolved["initial"];
   if (std::optional<Table> initial = root.section("initial")) {
     initial->only({"velocity", "angular_velocity", "state"});
-    if (initial->has("state"))
-      initial->fail("state", initial->shown("state"),
-                    "velocity and angular_velocity (this version starts from no saved state)");
+    if (initial->has("state")) {
+      for (const char* key : {"velocity", "angular_velocity"})
+        if (initial->has(key))
+          initial->fail(key, fmt::format("both state and {}", key), "only one of them (the motion at t = 0)");
+      given["state"] = initial->text("state", "the path of a file written by gnomon run --json, in quotes");
+      read_saved_state(*initial, resolved["beam"], data);
+      given["state_hash"] = hash_of(data);
+      return;
+    }
     data.velocity = pair(initial->numbers_or("velocity", {0.0, 0.0}, "two finite numbers (x, z, m/s)"));
     data.angular_velocity = initial->number_or("angular_velocity", 0.0, "a finite number (about +y, rad/s)");
   }
-  resolved["initial"] = {{"velocity", data.velocity}, {"angular_velocity", data.angular_velocity}};
+  given = {{"velocity", data.velocity}, {"angular_velocity", data.angular_velocity}};
 }
 
 /// The initial motion must be one that the supports allow.
 template <int p>
 void check_motion(const PlanarBeam<p>& beam, const Table& root) {
   const Data& data = beam.data();
+  if (!data.u.empty()) {
+    for (int i : beam.held())
+      if (data.u[i] != 0.0 || data.v[i] != 0.0)
+        root.fail("initial", root.shown("initial"),
+                  "a state in which the supported ends are at rest in place");
+    return;
+  }
   const double w = data.angular_velocity,
                size = std::hypot(data.velocity[0], data.velocity[1]) + std::abs(w) * data.length;
   for (int i : beam.held()) {

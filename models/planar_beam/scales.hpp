@@ -12,15 +12,15 @@ struct Scales {
   double energy, momentum, angular_momentum, velocity, time;
 };
 
-/// From the initial kinetic energy and what the loads bring: a free beam is moved by their impulses like a
+/// From the energy at the start and what the loads bring: a free beam is moved by their impulses like a
 /// rigid body, a held one is bent like a cantilever, at most to the length of the beam or one radian.
 /// `inertia` is about the centre of mass [kg m^2].
 inline Scales estimate_scales(const Data& data, const std::array<double, 2>& centre, double inertia,
-                              double kinetic) {
+                              double initial) {
   const CrossSection& s = data.section;
   const double L = data.length, mass = s.rhoA * L;
   const bool held = data.supports[0].place || data.supports[1].place;
-  double energy = kinetic;
+  double energy = initial;
   const double weight = mass * std::abs(data.gravity);
   double impulse[3] = {0, 0, 0};
   for (const Load& load : data.loads) {

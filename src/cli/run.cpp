@@ -47,6 +47,13 @@ output::Table series_table(const SceneStudy& study) {
         if (k == 0) table.columns.push_back({fmt::format("{}_{}", component.name, i), component.name});
         cells.push_back(output::number_cell(component.values[i], 17));
       }
+    for (const Probe& probe : study.scene.model->probes(result.samples[k]))
+      for (const auto& [component, value] : probe.components) {
+        if (k == 0)
+          table.columns.push_back(
+              {fmt::format("{}_{}", probe.name, component), fmt::format("{} {}", probe.name, component)});
+        cells.push_back(output::number_cell(value, 17));
+      }
     table.rows.push_back(std::move(cells));
   }
   return table;
@@ -67,6 +74,9 @@ void print(const Request& request, const SceneStudy& study) {
   for (const std::string& flag : result.flags) say(request, "flag: " + flag);
   for (const Named& component : model.observe(result.state))
     say(request, fmt::format("  {:<20} {}", component.name, list_of(component.values)));
+  for (const Probe& probe : model.probes(result.state))
+    for (const auto& [component, value] : probe.components)
+      say(request, fmt::format("  {:<20} {:.15g}", probe.name + " " + component, value));
   say(request, reference_line(study));
   for (std::size_t k = 0; k < row.error.size(); ++k) {
     const MetricInfo metric = model.metrics()[k];

@@ -27,6 +27,14 @@ Json named(const std::vector<Named>& components) {
   return json;
 }
 
+Json probes_json(const std::vector<Probe>& probes) {
+  Json json = Json::object();
+  for (const Probe& probe : probes)
+    for (const auto& [component, value] : probe.components)
+      json[probe.name][component] = finite_or_null(value);
+  return json;
+}
+
 Json cost_json(const Cost& cost) {
   return {{"steps", cost.steps},
           {"rejected", cost.rejected},
@@ -49,13 +57,17 @@ Json invariants_json(const AnyModel& model, const Trace& trace) {
   return json;
 }
 
-/// Lists over the sample times: every component of the state, and below "invariants" every invariant.
+/// Lists over the sample times: every component of the state, below "probes" every component of every probe,
+/// and below "invariants" every invariant.
 Json series_json(const AnyModel& model, const RunResult& result) {
   Json json;
   json["t"] = numbers(result.sample_times);
   for (std::size_t k = 0; k < result.samples.size(); ++k) {
     for (const Named& component : model.observe(result.samples[k]))
       json[component.name].push_back(numbers(component.values));
+    for (const Probe& probe : model.probes(result.samples[k]))
+      for (const auto& [component, value] : probe.components)
+        json["probes"][probe.name][component].push_back(finite_or_null(value));
     const std::vector<double> values = model.invariants(result.sample_times[k], result.samples[k]);
     auto value = values.begin();
     for (const InvariantInfo& info : model.invariant_info()) {
@@ -79,7 +91,7 @@ Json run_json(const SceneStudy& study, const Row& row) {
   json["message"] = result.message;
   json["t"] = finite_or_null(result.t);
   json["state"] = named(model.observe(result.state));
-  json["probes"] = Json::object();
+  json["probes"] = probes_json(model.probes(result.state));
   json["invariants"] = invariants_json(model, result.invariants);
   json["error"] = nullptr;
   json["below_bound"] = nullptr;

@@ -1,10 +1,15 @@
 #pragma once
 // Beams for tests, made without scene files.
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
-#include "models/planar_beam/planar_beam.hpp"
+#include "tests/catch.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace gnomon::test {
 
@@ -45,6 +50,55 @@ inline Data soft_beam(int elements) {
   data.loads = {{planar_beam::Place::end, {0.3, 0.8}, 0.2, planar_beam::Profile::constant, 0.0}};
   data.horizon = 2.0;
   return data;
+}
+
+/// A soft arm whose root is turned by a ramp that ends before the time of most tests.
+inline Data soft_arm(int elements, double over) {
+  Data data = soft_beam(elements);
+  data.loads.clear();
+  data.gravity = 0.0;
+  data.supports[0].motion = planar_beam::Motion{-1.0, over};
+  return data;
+}
+
+/// Runs a scheme as the program does.
+template <int p>
+RunResult run_beam(std::string_view scheme, const PlanarBeam<p>& model, double t_end, double step,
+                   int samples = 0) {
+  static const Catalogue catalogue = full_catalogue();
+  RunSpec spec;
+  spec.t_end = t_end;
+  spec.step = step;
+  spec.samples = samples;
+  for (const Pair& pair : catalogue.pairs)
+    if (pair.scheme == scheme && pair.model_type == typeid(PlanarBeam<p>)) return pair.run(&model, spec);
+  throw std::logic_error(std::string(scheme) + " does not run on beams");
+}
+
+/// Largest changes of energy and momenta after the invariants' own time, by their scales.
+struct Drifts {
+  double energy = 0.0, linear = 0.0, angular = 0.0;
+};
+template <int p>
+Drifts drifts(std::string_view scheme, const PlanarBeam<p>& model, double t_end, double step) {
+  const RunResult result = run_beam(scheme, model, t_end, step);
+  INFO(result.message);
+  REQUIRE(result.status == Status::ok);
+  const auto infos = model.invariant_info();
+  const std::size_t count = infos.size() == 3 ? 4 : 1;
+  const double* first = nullptr;
+  Drifts most;
+  for (std::size_t k = 0; k < result.invariants.t.size(); ++k) {
+    if (result.invariants.t[k] < infos[0].since) continue;
+    const double* now = result.invariants.values.data() + count * k;
+    if (!first) first = now;
+    most.energy = std::max(most.energy, std::abs(now[0] - first[0]) / infos[0].scale);
+    if (count == 1) continue;
+    most.linear = std::max(most.linear, std::hypot(now[1] - first[1], now[2] - first[2]) / infos[1].scale);
+    most.angular = std::max(most.angular, std::abs(now[3] - first[3]) / infos[2].scale);
+  }
+  REQUIRE(first);
+  return most;
 }
 
 /// Nodal values in [-size, size].

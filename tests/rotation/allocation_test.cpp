@@ -1,109 +1,17 @@
-// Counts what the inner loop allocates: through operator new, and through
-// malloc, which Eigen calls itself. The counters only run between start and
-// stop, so that other tests in the same program are not concerned.
+// What the inner loop allocates.
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
-#include <new>
-#include <utility>
 #include <vector>
 
 #include "integrators/rotation/munjiza.hpp"
 #include "src/run.hpp"
 #include "tests/catch.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/support/scenes.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-#define GNOMON_TEST_OWN_MALLOC 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define GNOMON_TEST_OWN_MALLOC 0
-#endif
-#endif
-#if !defined(GNOMON_TEST_OWN_MALLOC) && defined(__GLIBC__)
-#define GNOMON_TEST_OWN_MALLOC 1
-#endif
-
-namespace {
-
-thread_local bool counting = false;
-thread_local long allocations = 0;
-
-void note() {
-  if (counting) ++allocations;
-}
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  note();
-  const bool counted = std::exchange(counting, false);
-  if (size == 0) size = 1;
-  void* memory = alignment <= alignof(std::max_align_t)
-                     ? std::malloc(size)
-                     : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-  counting = counted;
-  return memory;
-}
-
-void* checked(void* memory) {
-  if (!memory) throw std::bad_alloc();
-  return memory;
-}
-
-// Not inlined, because GCC would see free() given what operator new returned and warn.
-[[gnu::noinline]] void release(void* memory) { std::free(memory); }
-
-template <class Body>
-long allocations_of(Body&& body) {
-  allocations = 0;
-  counting = true;
-  body();
-  counting = false;
-  return allocations;
-}
-
-}  // namespace
-
-// All forms of new and delete, because one form's memory may be given to another's delete.
-void* operator new(std::size_t size) { return checked(allocate(size, 1)); }
-void* operator new[](std::size_t size) { return checked(allocate(size, 1)); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size, 1); }
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocate(size, 1); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return checked(allocate(size, static_cast<std::size_t>(alignment)));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return checked(allocate(size, static_cast<std::size_t>(alignment)));
-}
-void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { release(memory); }
-void operator delete[](void* memory) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
-void operator delete[](void* memory, const std::nothrow_t&) noexcept { release(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
-void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept { release(memory); }
-void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept { release(memory); }
-
-#if GNOMON_TEST_OWN_MALLOC
-// The C library's own malloc under its other name.
-extern "C" void* __libc_malloc(std::size_t size) noexcept;
-extern "C" void* malloc(std::size_t size) noexcept {
-  note();
-  return __libc_malloc(size);
-}
-#endif
 
 using namespace gnomon;
 using namespace gnomon::test;
@@ -170,10 +78,10 @@ TEST_CASE("schemes: the counters of allocations see what is allocated", "[rotati
   std::unique_ptr<Wide> wide;
   CHECK(allocations_of([&] { wide = std::make_unique<Wide>(); }) == 1);
   CHECK(reinterpret_cast<std::size_t>(wide.get()) % 64 == 0);
-#if GNOMON_TEST_OWN_MALLOC
-  Eigen::MatrixXd matrix;
-  CHECK(allocations_of([&] { matrix.resize(50, 50); }) == 1);
-#endif
+  if (counts_malloc) {
+    Eigen::MatrixXd matrix;
+    CHECK(allocations_of([&] { matrix.resize(50, 50); }) == 1);
+  }
 }
 
 TEST_CASE("schemes: steps of equal size allocate nothing", "[rotation][allocation]") {
