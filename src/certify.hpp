@@ -36,6 +36,7 @@ struct CertifyOptions {
   Real loose = 1000 * std::numeric_limits<Real>::epsilon();  ///< the tolerance it is compared with
   int stages = 8;                                            ///< of B; its order is twice as much; at least 2
   long first_steps = 0;  ///< steps over the whole time of the first run of B; 0: from the steps of A
+  long steps_ratio = 2;  ///< then: steps of A to those of the first run of B
   Real target = 0;       ///< doubling ends at this scaled distance between B fine and B coarse
   long max_evaluations = 100'000'000;  ///< for each of A tight, A loose and all runs of B together
 };
@@ -221,7 +222,8 @@ Certified<Real> certify(FA& f_a, FB& f_b, const CertifyProblem<Real>& problem,
   // Method B.
   const generic::GaussTableau<Real> tableau = generic::gauss_tableau<Real>(options.stages);
   const Real length = problem.outputs.back() - problem.t0;
-  const long first = options.first_steps > 0 ? options.first_steps : std::max(tight.steps / 2, 1L);
+  const long first = options.first_steps > 0 ? options.first_steps
+                                             : std::max(tight.steps / std::max(options.steps_ratio, 1L), 1L);
   long spent = 0;
   const auto collocate = [&](long factor, Trajectory<Real>& states) {
     const auto advance = [&](const detail::Leg<Real>& leg, std::vector<Real>& y,

@@ -23,21 +23,44 @@ class MassBand {
       for (int j = std::max(0, i - p); j <= i; ++j) {
         double sum = entry(i, j);
         for (int k = std::max(0, i - p); k < j; ++k) sum -= entry(i, k) * entry(j, k);
-        entry(i, j) = i == j ? std::sqrt(sum) : sum / entry(j, j);
+        // The diagonal is kept as its reciprocal.
+        entry(i, j) = i == j ? 1.0 / std::sqrt(sum) : sum * entry(j, j);
       }
   }
 
-  /// Solves in place for values[0], values[3], values[6], ..
-  void solve(double* values) const {
-    for (int i = 0; i < size_; ++i) {
-      double sum = values[3 * i];
-      for (int k = std::max(0, i - p); k < i; ++k) sum -= entry(i, k) * values[3 * k];
-      values[3 * i] = sum / entry(i, i);
+  /// Solves for three right-hand sides at once, x, y, z of one node after the other, the last with a factor
+  /// of its own: they do not wait for each other.
+  static void solve(const MassBand& first_two, const MassBand& third, double* values) {
+    const int n = first_two.size_;
+    const double *L = first_two.lower_.data(), *M = third.lower_.data();
+    for (int i = 0; i < n; ++i) {
+      double* x = values + 3 * i;
+      const std::size_t at = static_cast<std::size_t>(i) * width;
+      for (int d = std::min(i, p); d >= 1; --d) {
+        const double l = L[at + d], m = M[at + d];
+        const double* other = x - 3 * d;
+        x[0] -= l * other[0];
+        x[1] -= l * other[1];
+        x[2] -= m * other[2];
+      }
+      x[0] *= L[at];
+      x[1] *= L[at];
+      x[2] *= M[at];
     }
-    for (int i = size_ - 1; i >= 0; --i) {
-      double sum = values[3 * i];
-      for (int k = i + 1; k <= std::min(size_ - 1, i + p); ++k) sum -= entry(k, i) * values[3 * k];
-      values[3 * i] = sum / entry(i, i);
+    for (int i = n - 1; i >= 0; --i) {
+      double* x = values + 3 * i;
+      for (int d = 1; d <= std::min(n - 1 - i, p); ++d) {
+        const std::size_t at = static_cast<std::size_t>(i + d) * width + d;
+        const double l = L[at], m = M[at];
+        const double* other = x + 3 * d;
+        x[0] -= l * other[0];
+        x[1] -= l * other[1];
+        x[2] -= m * other[2];
+      }
+      const std::size_t at = static_cast<std::size_t>(i) * width;
+      x[0] *= L[at];
+      x[1] *= L[at];
+      x[2] *= M[at];
     }
   }
 

@@ -128,9 +128,12 @@ class PlanarBeam {
   /// Turns nodal forces into accelerations, those of held unknowns into 0.
   void accelerate(double* force) const {
     for (int i : held_) force[i] = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      mass_[k].solve(force + k);
-      for (int i = 0; i < nodes_; ++i) force[3 * i + k] /= density(k);
+    MassBand<p>::solve(mass_[0], mass_[1], force);
+    const double place = 1.0 / section().rhoA, rotation = 1.0 / section().rhoI;
+    for (int i = 0; i < nodes_; ++i) {
+      force[3 * i] *= place;
+      force[3 * i + 1] *= place;
+      force[3 * i + 2] *= rotation;
     }
   }
   /// (epsilon, gamma, kappa) at all integration points.
@@ -333,8 +336,8 @@ class PlanarBeam {
     for (int i = 0; i < unknowns(); ++i)
       if (!std::binary_search(held_.begin(), held_.end(), i)) free_.push_back(i);
     const auto& ends = data_.supports;
-    const MassBand<p> places(element_, elements(), ends[0].place, ends[1].place);
-    mass_ = {places, places, MassBand<p>(element_, elements(), ends[0].rotation, ends[1].rotation)};
+    mass_ = {MassBand<p>(element_, elements(), ends[0].place, ends[1].place),
+             MassBand<p>(element_, elements(), ends[0].rotation, ends[1].rotation)};
     for (int end = 0; end < 2; ++end)
       if (ends[end].motion) responses_[end] = response_to(end == 0 ? 0 : nodes_ - 1);
   }
@@ -411,7 +414,7 @@ class PlanarBeam {
   std::vector<PointReference> points_;
   std::vector<Load> loads_;
   std::vector<int> held_, free_;
-  std::array<MassBand<p>, 3> mass_;
+  std::array<MassBand<p>, 2> mass_;  ///< of places and of rotations
   std::array<Vector, 2> responses_;
   State initial_;
   Scales scales_;

@@ -139,19 +139,18 @@ TEST_CASE("beam schemes: tangent against finite differences in large random stat
 }
 
 TEST_CASE("beam schemes: Newton's iteration converges quadratically", "[planar_beam]") {
-  for (const auto& e : {residuals<BeamMidpoint>(0.1, 1.0, 8), residuals<BeamEnergyMomentum>(0.1, 1.0, 8)}) {
-    // Pairs above roundoff: e_{k+1} <= C e_k^2 with one C, while linear convergence has no such C.
-    std::vector<double> constants;
+  for (const auto& e : {residuals<BeamMidpoint>(0.3, 1.0, 8), residuals<BeamEnergyMomentum>(0.3, 1.0, 8)}) {
+    // Pairs above roundoff, 1e-11: e_{k+1} <= C e_k^2 with one C. A rate of 0.1 would need C = 0.1/e_k,
+    // which is 20 and more in the last pair.
+    int pairs = 0;
     for (std::size_t k = 0; k + 1 < e.size(); ++k) {
+      if (e[k] > 0.1 * e[0] || e[k + 1] < 1e-10) continue;
       INFO(e[k] << " -> " << e[k + 1]);
-      if (e[k] <= 1e-2 * e[0] && e[k + 1] >= 1e-10 * e[0]) constants.push_back(e[k + 1] / (e[k] * e[k]));
+      CHECK(e[k + 1] <= 1e-2 * e[k] * e[k]);
+      ++pairs;
     }
-    std::string history;
-    for (double one : e) history += std::to_string(one) + " ";
-    INFO(history);
-    CHECK(constants.size() >= 2);
-    for (double C : constants) CHECK(C <= 10.0 * constants[0]);
-    CHECK(e.back() <= 1e-12 * e[0]);
+    CHECK(pairs >= 2);
+    CHECK(e.back() <= 1e-13 * e[0]);
   }
 }
 

@@ -1,0 +1,274 @@
+// Beam scenes on the command line: malformed ones, saved states, probes.
+#include "tests/cli/document.hpp"
+#include "tests/cli/refusal.hpp"
+
+namespace fs = std::filesystem;
+using namespace gnomon::test;
+using namespace gnomon::test::cli;
+
+namespace {
+
+// Lines 1 to 3, and 4 to 12.
+const std::string top = "name = \"a\"\nmodel = \"planar_beam\"\nt_end = 1.0\n";
+const std::string beam =
+    "[beam]\nlength = 1.0\nelements = 2\norder = 1\nEA = 10.0\nGA = 10.0\nEI = 1.0\nrhoA = 1.0\nrhoI = 0.1\n";
+const std::string whole = top + beam;
+const std::string load = "[[loads]]\nat = \"end\"\n";
+const std::string what = "a file written by gnomon run --json for the same beam";
+
+std::string without(const std::string& key) {
+  const std::size_t begin = whole.find("\n" + key + " =") + 1;
+  return whole.substr(0, begin) + whole.substr(whole.find('\n', begin) + 1);
+}
+std::string with(const std::string& key, const std::string& value) {
+  const std::size_t begin = whole.find("\n" + key + " =") + 1;
+  return whole.substr(0, begin) + key + " = " + value + whole.substr(whole.find('\n', begin));
+}
+
+Words run_beam_of(const std::string& scene, const Words& more = {}) {
+  Words words{"run",    scene, "--integrator",   "beam-midpoint",
+              "--step", "0.1", "--no-reference", "--no-timing"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+Json saved(const std::string& text) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "s.toml", text);
+  const Outcome outcome = run_program(run_beam_of("s.toml", {"--json", "-"}), folder.path());
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  return Json::parse(outcome.out);
+}
+
+}  // namespace
+
+TEST_CASE("cli: the beam scene that the malformed ones are made from is right", "[cli][planar_beam]") {
+  for (const std::string& text :
+       {whole, whole + "[supports]\nstart = { kind = \"pinned\" }\n",
+        whole +
+            "[supports]\nend = { kind = \"rotated\", rotation = { kind = \"ramp\", to = 1, over = 2 } }\n",
+        whole + load + "profile = { kind = \"ramp\", over = 1 }\n",
+        whole + "[initial]\nvelocity = [1, 2]\nangular_velocity = 3\n"}) {
+    const TemporaryFolder folder;
+    write_text(folder.path() / "s.toml", text);
+    const Outcome outcome = run_program(run_beam_of("s.toml"), folder.path());
+    INFO(text << outcome.err);
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.err.empty());
+  }
+}
+
+TEST_CASE(
+    "cli: a malformed beam scene is refused with file, line, key, what was found and what would be right",
+    "[cli][planar_beam]") {
+  struct Case {
+    std::string scene, message;
+  };
+  const std::string supports = whole + "[supports]\n", rotated = "start = { kind = \"rotated\", ";
+  const std::string ends =
+      "one of free, pinned, clamped, or a table { kind = \"rotated\", rotation = { .. } }";
+  const std::vector<Case> cases{
+      {top,
+       "s.toml:1: beam: found nothing, expected a table [beam] with length, elements, order and the "
+       "section's data"},
+      {top + "[baem]\n", "s.toml:4: baem: found an unknown key, expected beam"},
+      {whole + "[load]\n", "s.toml:13: load: found an unknown key, expected loads"},
+      {whole + "[body]\n",
+       "s.toml:13: body: found an unknown key, expected one of beam, description, initial, loads, model, "
+       "name, "
+       "supports, t_end"},
+      {whole + "width = 1\n",
+       "s.toml:13: beam.width: found an unknown key, expected one of length, elements, order, EA, GA, EI, "
+       "rhoA, rhoI, start, angle, curvature, gravity, geometry"},
+      {with("length", "0"), "s.toml:5: beam.length: found 0, expected a positive number (m)"},
+      {without("length"), "s.toml:4: beam.length: found nothing, expected a positive number (m)"},
+      {with("elements", "0"), "s.toml:6: beam.elements: found 0, expected a whole number from 1 to 1000000"},
+      {with("elements", "2.5"),
+       "s.toml:6: beam.elements: found 2.5, expected a whole number from 1 to 1000000"},
+      {with("order", "5"),
+       "s.toml:7: beam.order: found 5, expected a whole number from 1 to 4 (polynomial order of an element)"},
+      {with("EA", "-1.0"), "s.toml:8: beam.EA: found -1.0, expected a positive number (axial stiffness, N)"},
+      {with("GA", "\"1\""),
+       "s.toml:9: beam.GA: found \"1\", expected a positive number (shear stiffness, N)"},
+      {with("EI", "nan"),
+       "s.toml:10: beam.EI: found nan, expected a positive number (bending stiffness, N m^2)"},
+      {with("rhoA", "0.0"),
+       "s.toml:11: beam.rhoA: found 0.0, expected a positive number (mass per length, kg/m)"},
+      {without("rhoI"),
+       "s.toml:4: beam.rhoI: found nothing, expected a positive number (rotary inertia per length, kg m)"},
+      {whole + "start = [0, 0, 0]\n",
+       "s.toml:13: beam.start: found [0, 0, 0], expected two finite numbers (x, z of the start, m)"},
+      {whole + "angle = inf\n",
+       "s.toml:13: beam.angle: found inf, expected a finite number (rad, from x towards z)"},
+      {whole + "curvature = 4\n",
+       "s.toml:13: beam.curvature: found 4, 2 rad an element, expected at most 1.5 rad an element"},
+      {whole + "geometry = \"curved\"\n",
+       "s.toml:13: beam.geometry: found \"curved\", expected one of interpolated, exact"},
+      // Supports.
+      {supports + "left = \"free\"\n",
+       "s.toml:14: supports.left: found an unknown key, expected one of start, end"},
+      {supports + "start = \"fixed\"\n", "s.toml:14: supports.start: found \"fixed\", expected " + ends},
+      {supports + "start = \"rotated\"\n", "s.toml:14: supports.start: found \"rotated\", expected " + ends},
+      {supports + "start = 3\n", "s.toml:14: supports.start: found 3, expected " + ends},
+      {supports + "start = { kind = \"turned\" }\n",
+       "s.toml:14: supports.start.kind: found \"turned\", expected one of free, pinned, clamped, rotated"},
+      {supports + "start = { kind = \"clamped\", rotation = {} }\n",
+       "s.toml:14: supports.start.rotation: found a key unknown to kind \"clamped\", expected kind"},
+      {supports + "start = { kind = \"rotated\" }\n",
+       "s.toml:14: supports.start.rotation: found nothing, expected a table { kind = \"ramp\", to = .., over "
+       "= .. } (rad, s)"},
+      {supports + rotated + "rotation = 1.5 }\n",
+       "s.toml:14: supports.start.rotation: found 1.5, expected a table"},
+      {supports + rotated + "rotation = { kind = \"sine\" } }\n",
+       "s.toml:14: supports.start.rotation.kind: found \"sine\", expected ramp"},
+      {supports + rotated + "rotation = { kind = \"ramp\", to = 1 } }\n",
+       "s.toml:14: supports.start.rotation.over: found nothing, expected a positive number (s)"},
+      {supports + rotated + "rotation = { kind = \"ramp\", to = 1, over = -1 } }\n",
+       "s.toml:14: supports.start.rotation.over: found -1, expected a positive number (s)"},
+      {supports + rotated + "rotation = { kind = \"ramp\", to = \"1\", over = 1 } }\n",
+       "s.toml:14: supports.start.rotation.to: found \"1\", expected a finite number (about +y, rad)"},
+      {supports + rotated + "rotation = { kind = \"ramp\", to = 1, over = 1, until = 2 } }\n",
+       "s.toml:14: supports.start.rotation.until: found a key unknown to kind \"ramp\", expected one of "
+       "kind, "
+       "to, over"},
+      // Loads.
+      {whole + "[loads]\n", "s.toml:13: loads: found {}, expected tables [[loads]]"},
+      {whole + "[[loads]]\n",
+       "s.toml:13: loads[0].at: found nothing, expected one of start, end, distributed"},
+      {whole + load + "[[loads]]\nat = \"middle\"\n",
+       "s.toml:16: loads[1].at: found \"middle\", expected one of start, end, distributed"},
+      {whole + load + "force = 3\n",
+       "s.toml:15: loads[0].force: found 3, expected two finite numbers (x, z, N or N/m)"},
+      {whole + load + "moment = [1]\n",
+       "s.toml:15: loads[0].moment: found [1], expected a finite number (about +y, N m or N m/m)"},
+      {whole + load + "profile = \"ramp\"\n",
+       "s.toml:15: loads[0].profile: found \"ramp\", expected a table"},
+      {whole + load + "profile = { kind = \"step\", over = 1 }\n",
+       "s.toml:15: loads[0].profile.over: found a key unknown to kind \"step\", expected one of kind, until"},
+      {whole + load + "profile = { kind = \"half-sine\", over = 0 }\n",
+       "s.toml:15: loads[0].profile.over: found 0, expected a positive number (s)"},
+      // The motion at t = 0.
+      {whole + "[initial]\nvelocity = [1]\n",
+       "s.toml:14: initial.velocity: found [1], expected two finite numbers (x, z, m/s)"},
+      {whole + "[initial]\nspin = 1\n",
+       "s.toml:14: initial.spin: found an unknown key, expected one of velocity, angular_velocity, state"},
+      {whole + "[initial]\nvelocity = [1, 0]\n[supports]\nend = \"pinned\"\n",
+       "s.toml:13: initial: found { velocity = [1, 0] }, expected a rigid motion in which the supported ends "
+       "do not move"},
+      {whole + "[initial]\nvelocity = [1, 0]\nstate = \"x.json\"\n",
+       "s.toml:14: initial.velocity: found both state and velocity, expected only one of them (the motion at "
+       "t = 0)"},
+      {whole + "[initial]\nstate = 3\n",
+       "s.toml:14: initial.state: found 3, expected the path of a file written by gnomon run --json, in "
+       "quotes"},
+      {whole + "[initial]\nstate = \"x.json\"\n",
+       "s.toml:14: initial.state: found 'x.json', which cannot be read, expected " + what},
+  };
+  REQUIRE(cases.size() >= 40);
+  for (const Case& each : cases) {
+    INFO(each.scene);
+    check_refused({{"s.toml", each.scene}}, run_beam_of("s.toml"), each.message);
+  }
+}
+
+TEST_CASE("cli: a saved state is where the next run begins", "[cli][planar_beam]") {
+  const std::string moving = whole + "[initial]\nangular_velocity = 1\n" + load + "force = [1, 0]\n";
+  const std::string from = whole + "[initial]\nstate = \"state/x.json\"\n" + load + "force = [1, 0]\n";
+  const Json first = saved(moving);
+  const auto run_from = [&](const Json& file) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder.path() / "scenes/state");
+    write_text(folder.path() / "scenes/state/x.json", file.dump());
+    write_text(folder.path() / "scenes/s.toml", from);
+    const Outcome outcome = run_program(run_beam_of("scenes/s.toml", {"--json", "-"}), folder.path());
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return Json::parse(outcome.out);
+  };
+  // Two seconds at once are one second and another.
+  const Json second = run_from(first);
+  const Json both = saved(std::string(moving).replace(moving.find("t_end = 1.0"), 11, "t_end = 2.0"));
+  for (const char* key : {"u", "v"})
+    for (std::size_t i = 0; i < 9; ++i)
+      CHECK(std::abs(second["runs"][0]["state"][key][i].get<double>() -
+                     both["runs"][0]["state"][key][i].get<double>()) <= 1e-6);
+  // The content decides the physics.
+  Json other = first;
+  other["runs"][0]["state"]["u"][0] = 0.1;
+  const Json third = run_from(other);
+  CHECK(second["scenes"][0]["initial"]["state"] == "state/x.json");
+  CHECK(second["scenes"][0]["initial"]["state_hash"] != third["scenes"][0]["initial"]["state_hash"]);
+  CHECK(run_from(first)["scenes"][0]["initial"] == second["scenes"][0]["initial"]);
+}
+
+TEST_CASE("cli: a saved state of another beam is refused", "[cli][planar_beam]") {
+  const Json right = saved(whole);
+  const auto refused = [&](const std::string& file, const std::string& found, const std::string& expected,
+                           const std::string& more = "") {
+    check_refused({{"s.toml", whole + more + "[initial]\nstate = \"x.json\"\n"}, {"x.json", file}},
+                  run_beam_of("s.toml"),
+                  "s.toml:" + std::to_string(more.empty() ? 14 : 16) + ": initial.state: found 'x.json', " +
+                      found + ", expected " + expected);
+  };
+  refused("{", "which is not JSON", what);
+  refused("[]", "which has no scenes", what);
+  refused("{}", "which has no scenes", what);
+  Json wrong = right;
+  wrong.erase("runs");
+  refused(wrong.dump(), "which has no runs", what);
+  wrong = right;
+  wrong["scenes"][0]["model"] = "rigid_body";
+  refused(wrong.dump(), "a state of model rigid_body", "a state of model planar_beam");
+  wrong = right;
+  wrong["scenes"][0]["beam"]["elements"] = 3;
+  refused(wrong.dump(), "a beam with elements = 3", "one with elements = 2");
+  wrong = right;
+  wrong["runs"][0]["status"] = "diverged";
+  refused(wrong.dump(), "a run that ended with status \"diverged\"", "a run with status \"ok\"");
+  wrong = right;
+  wrong["runs"][0]["state"]["u"].push_back(1.0);
+  refused(wrong.dump(), "10 numbers in state.u", "9 numbers (ux, uz, phi of every node)");
+  wrong = right;
+  wrong["runs"][0]["state"].erase("v");
+  refused(wrong.dump(), "which has no list state.v", "9 numbers (ux, uz, phi of every node)");
+  wrong = right;
+  wrong["runs"][0]["state"]["v"][2] = nullptr;
+  refused(wrong.dump(), "null in state.v", "finite numbers");
+  wrong = saved(whole + "[initial]\nvelocity = [1, 0]\n");
+  check_refused({{"s.toml", whole + "[supports]\nstart = \"pinned\"\n[initial]\nstate = \"x.json\"\n"},
+                 {"x.json", wrong.dump()}},
+                run_beam_of("s.toml"),
+                "s.toml:15: initial: found { state = \"x.json\" }, expected a state in which the supported "
+                "ends are at rest in place");
+}
+
+TEST_CASE("cli: probes are the displacements of the ends", "[cli][planar_beam]") {
+  const Json json = json_of({"run", "soft-beam", "--integrator", "beam-midpoint", "--step", "0.1",
+                             "--samples", "4", "--no-timing", "--no-reference"});
+  const Json& run = json["runs"][0];
+  const Json &u = run["state"]["u"], &probes = run["probes"], &series = run["series"];
+  REQUIRE(u.size() == 27);
+  CHECK(keys_of(probes) == Keys{"start", "end"});
+  CHECK(keys_of(probes["end"]) == Keys{"x", "z", "phi"});
+  const char* names[3] = {"x", "z", "phi"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(probes["start"][names[k]] == 0.0);
+    CHECK(probes["end"][names[k]] == u[24 + k]);
+    CHECK(probes["end"][names[k]] != 0.0);
+    REQUIRE(series["probes"]["end"][names[k]].size() == 5);
+    CHECK(series["probes"]["end"][names[k]][0] == 0.0);
+    CHECK(series["probes"]["end"][names[k]][4] == u[24 + k]);
+  }
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program({"run", "soft-beam", "--integrator", "beam-midpoint", "--step", "0.1", "--samples", "4",
+                   "--no-timing", "--no-reference", "--csv", "x.csv", "--quiet"},
+                  folder.path());
+  REQUIRE(outcome.exit_code == 0);
+  const std::string csv = content_of(folder.path() / "x.csv");
+  CHECK(csv.find("start_x,start_z,start_phi,end_x,end_z,end_phi") != std::string::npos);
+  const Json rigid = json_of({"run", "asymmetric-free-top", "--integrator", "rkmk4", "--step", "0.1",
+                              "--no-timing", "--no-reference"});
+  CHECK(rigid["runs"][0]["probes"] == Json::object());
+}

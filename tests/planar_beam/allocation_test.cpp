@@ -1,0 +1,46 @@
+// What the inner loop of the beam schemes allocates.
+#include <vector>
+
+#include "integrators/beam/midpoint.hpp"
+#include "tests/planar_beam/beams.hpp"
+#include "tests/support/allocations.hpp"
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+template <class S, int p>
+void check_steps(const PlanarBeam<p>& model, double h, long count) {
+  auto state = S::start(model, model.initial());
+  long n = 0;
+  Status status = Status::unsupported;
+  const long allocated =
+      allocations_of([&] { status = detail::march<PlanarBeam<p>, S>(model, state, n, count, h); });
+  CHECK(status == Status::ok);
+  CHECK(n == count);
+  CHECK(allocated == 0);
+}
+
+}  // namespace
+
+TEST_CASE("beam schemes: steps allocate nothing", "[planar_beam][allocation]") {
+  check_steps<beam::BeamMidpoint>(PlanarBeam<1>(flying_beam(10, 500.0)), 0.05, 100);
+  check_steps<beam::BeamEnergyMomentum>(PlanarBeam<1>(soft_arm(4, 0.5)), 0.01, 100);
+  // Large steps, too, which need line search and continuation.
+  check_steps<beam::BeamEnergyMomentum>(PlanarBeam<3>(flying_beam(10, 100.0)), 0.5, 20);
+}
+
+TEST_CASE("planar beam: rates and invariants allocate nothing", "[planar_beam][allocation]") {
+  const PlanarBeam<1> model(soft_arm(4, 0.5));
+  const auto ode = model.ode();
+  std::vector<double> y(static_cast<std::size_t>(ode.size())), rate(y.size());
+  const auto state = model.initial();
+  ode.pack(state, y.data());
+  ode.rhs(0.0, y.data(), rate.data());
+  double found[4];
+  CHECK(allocations_of([&] {
+          ode.rhs(0.0, y.data(), rate.data());
+          model.invariants(0.0, state, found);
+        }) == 0);
+}

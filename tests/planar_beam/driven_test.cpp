@@ -1,0 +1,139 @@
+// An end whose rotation is prescribed.
+#include <cmath>
+#include <vector>
+
+#include "tests/planar_beam/beams.hpp"
+
+using namespace gnomon;
+using namespace gnomon::test;
+using planar_beam::Motion;
+
+namespace {
+
+/// The same equations by the classical Runge-Kutta method on all unknowns: the driven one has the rate s'
+/// and, between jumps, no acceleration.
+template <int p>
+planar_beam::State runge_kutta(const PlanarBeam<p>& model, double t_end, int steps) {
+  const int n = model.unknowns();
+  planar_beam::State state = model.initial();
+  const double h = t_end / steps;
+  std::vector<double> breaks{0.0};
+  for (double b : model.breaks()) breaks.push_back(b);
+  const auto rates = [&](double t, const Eigen::VectorXd& y) {
+    Eigen::VectorXd rate(2 * n), inner(n), outer(n);
+    model.internal_force(y.data(), inner.data());
+    model.external_force(t, outer.data());
+    outer -= inner;
+    model.accelerate(outer.data());
+    rate << y.tail(n), outer;
+    return rate;
+  };
+  Eigen::VectorXd y(2 * n);
+  y << state.u, state.v;
+  for (int k = 0; k < steps; ++k) {
+    const double t = k * h;
+    for (double b : breaks)
+      if (std::abs(t - b) < 1e-9) model.jump(b, y.data() + n);
+    const Eigen::VectorXd k1 = rates(t, y), k2 = rates(t + h / 2, y + h / 2 * k1),
+                          k3 = rates(t + h / 2, y + h / 2 * k2), k4 = rates(t + h, y + h * k3);
+    y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return {y.head(n), y.tail(n), model.strains(y.data())};
+}
+
+}  // namespace
+
+TEST_CASE("planar beam: a prescribed ramp and its rates from both sides", "[planar_beam]") {
+  const Motion motion{-1.5, 5.0};
+  CHECK(motion.value(-1.0) == 0.0);
+  CHECK(motion.value(2.5) == -0.75);
+  CHECK(motion.value(7.0) == -1.5);
+  CHECK(motion.rate_before(0.0) == 0.0);
+  CHECK(motion.rate_after(0.0) == -0.3);
+  CHECK(motion.rate_before(5.0) == -0.3);
+  CHECK(motion.rate_after(5.0) == 0.0);
+  CHECK(motion.snapped(5.0 + 1e-12, 1e-9) == 5.0);
+  CHECK(motion.snapped(5.0 + 1e-6, 1e-9) == 5.0 + 1e-6);
+  const PlanarBeam<2> model(soft_arm(4, 0.5));
+  CHECK(model.breaks() == std::vector<double>{0.5});
+  CHECK(model.held() == std::vector<int>{0, 1, 2});
+  REQUIRE(model.prescribed(2));
+  CHECK(model.prescribed(2)->to == -1.0);
+  CHECK(model.prescribed(1) == nullptr);
+  CHECK(model.prescribed(model.unknowns() - 1) == nullptr);
+}
+
+TEST_CASE("planar beam: a jump of a prescribed rate leaves the momentum of the free unknowns",
+          "[planar_beam]") {
+  const PlanarBeam<2> model(soft_arm(4, 0.5));
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(model.unknowns()), momentum(model.unknowns());
+  model.jump(0.0, v.data());
+  CHECK(v[2] == -2.0);
+  model.momentum(v.data(), momentum.data());
+  for (int i : model.free()) CHECK(std::abs(momentum[i]) <= 1e-15);
+  CHECK(std::abs(momentum[2]) >= 1e-3);
+  // The energy after the jump is that of the velocities after it.
+  double energy = 0.0;
+  model.invariants(0.0, model.initial(), &energy);
+  CHECK(std::abs(energy - model.kinetic_energy(v)) <= 1e-15);
+  CHECK(energy > 1e-3);
+}
+
+TEST_CASE("beam schemes: order 2 of an arm whose end is turned and stopped", "[planar_beam]") {
+  const PlanarBeam<2> model(soft_arm(4, 0.5));
+  const auto reference = runge_kutta(model, 1.0, 8000);
+  const auto half = model.distance(runge_kutta(model, 1.0, 4000), reference);
+  for (double difference : half) CHECK(difference <= 1e-7);
+  for (const char* scheme : {"beam-midpoint", "beam-energy-momentum"}) {
+    std::array<double, 4> errors[2];
+    for (int k = 0; k < 2; ++k) {
+      const RunResult result = run_beam(scheme, model, 1.0, 1.0 / (640 << k), 20);
+      REQUIRE(result.status == Status::ok);
+      CHECK(result.flags.empty());
+      errors[k] = model.distance(model.restore(result.state), reference);
+      // The driven end neither lags nor rings.
+      for (std::size_t i = 0; i < result.samples.size(); ++i) {
+        const auto state = model.restore(result.samples[i]);
+        const Motion& motion = *model.prescribed(2);
+        const double t = motion.snapped(result.sample_times[i], 1e-9);
+        CHECK(state.u[2] == motion.value(t));
+        CHECK(state.v[2] == motion.rate_before(t));
+      }
+    }
+    for (int k = 0; k < 4; ++k) {
+      INFO(scheme << ", " << model.metrics[k].name << ": " << errors[0][k] << " " << errors[1][k]);
+      CHECK(errors[1][k] >= 1e-6);
+      CHECK(std::abs(std::log2(errors[0][k] / errors[1][k]) - 2.0) <= 0.1);
+    }
+  }
+}
+
+TEST_CASE("beam schemes: a step that misses the stop of the motion is flagged", "[planar_beam]") {
+  const RunResult result = run_beam("beam-midpoint", PlanarBeam<2>(soft_arm(4, 0.5)), 1.0, 1.0 / 641);
+  CHECK(result.flags.size() == 1);
+}
+
+TEST_CASE("beam schemes: Simo's robot arm", "[planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene scene = load_scene(catalogue, "robot-arm");
+  const auto& model = typed<PlanarBeam<2>>(scene);
+  Data finer = model.data();
+  finer.elements *= 2;
+  const PlanarBeam<2> fine(finer);
+  const auto tip = [](const auto& beam, const char* scheme, double t) {
+    const auto state = beam.restore(run_beam(scheme, beam, t, 0.01).state);
+    return Eigen::Vector2d(state.u[beam.unknowns() - 3], state.u[beam.unknowns() - 2]);
+  };
+  for (const char* scheme : {"beam-midpoint", "beam-energy-momentum"})
+    for (const auto& [t, x, z] : {std::tuple{5.0, -12.588, 9.578}, std::tuple{9.0, -4.813, 8.197}}) {
+      const Eigen::Vector2d found = tip(model, scheme, t), published(x, z);
+      INFO(scheme << ", t = " << t << ": " << found.transpose() << " and "
+                  << tip(fine, scheme, t).transpose());
+      CHECK((found - published).norm() <= 0.03);
+      // The mesh is fine enough for that.
+      CHECK((found - tip(fine, scheme, t)).norm() <= 0.005);
+    }
+  // Energy is constant once the root is held.
+  CHECK(drifts("beam-energy-momentum", model, 9.0, 0.05).energy <= 1e-11);
+  CHECK(drifts("beam-midpoint", model, 9.0, 0.05).energy >= 1e-6);
+}
