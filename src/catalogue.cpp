@@ -15,10 +15,24 @@ const SchemeInfo* Catalogue::scheme(std::string_view name) const {
   return nullptr;
 }
 
-const Pair* Catalogue::pair(std::string_view scheme_name, const AnyModel& model) const {
-  for (const Pair& candidate : pairs)
-    if (candidate.scheme == scheme_name && candidate.model_type == model.type()) return &candidate;
+namespace {
+
+const Pair* of_types(const Catalogue& catalogue, std::string_view scheme, const AnyModel& model) {
+  for (const Pair& candidate : catalogue.pairs)
+    if (candidate.scheme == scheme && candidate.model_type == model.type()) return &candidate;
   return nullptr;
+}
+
+}  // namespace
+
+const Pair* Catalogue::pair(std::string_view scheme_name, const AnyModel& model) const {
+  const Pair* found = of_types(*this, scheme_name, model);
+  return found && found->refusal(model.get()).empty() ? found : nullptr;
+}
+
+std::string_view Catalogue::refusal(std::string_view scheme_name, const AnyModel& model) const {
+  const Pair* found = of_types(*this, scheme_name, model);
+  return found ? found->refusal(model.get()) : std::string_view{};
 }
 
 std::vector<const SchemeInfo*> Catalogue::schemes_for(const AnyModel& model) const {

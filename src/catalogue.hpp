@@ -38,6 +38,8 @@ struct Pair {
   std::string_view variant;
   std::type_index model_type;
   RunResult (*run)(const void* model, const RunSpec& spec);
+  /// Why the scheme cannot run a model of that type all the same, decided by its data; empty if it can.
+  std::string_view (*refusal)(const void* model);
 };
 
 /// A library that integrators are built on, for the record of the environment.
@@ -77,7 +79,10 @@ struct Catalogue {
   int variants(std::string_view model) const;
 
   const SchemeInfo* scheme(std::string_view name) const;
+  /// None where the scheme does not run on the model, by its type or its data.
   const Pair* pair(std::string_view scheme, const AnyModel& model) const;
+  /// Why a scheme that runs on models of its type does not run on this one; empty otherwise.
+  std::string_view refusal(std::string_view scheme, const AnyModel& model) const;
   /// The schemes that run on a model; negative controls are left out.
   std::vector<const SchemeInfo*> schemes_for(const AnyModel& model) const;
 
@@ -91,12 +96,22 @@ RunResult run_pair(const void* model, const RunSpec& spec) {
   return run<M, S>(*static_cast<const M*>(model), spec);
 }
 
+/// A scheme may refuse a model by its data: `refusal(model)` says why not, or is empty.
+template <Model M, class S>
+std::string_view refusal_of(const void* model) {
+  if constexpr (requires(const M& m) { S::refusal(m); })
+    return S::refusal(*static_cast<const M*>(model));
+  else
+    return {};
+}
+
 template <class S, class... M>
 void add_scheme(Catalogue& catalogue, TypeList<M...>) {
   catalogue.schemes.push_back(S::info);
   const auto add_one = [&]<class One>(TypeList<One>) {
     if constexpr (Runs<S, One>)
-      catalogue.pairs.push_back({S::info.name, One::model_name, One::variant, typeid(One), run_pair<One, S>});
+      catalogue.pairs.push_back(
+          {S::info.name, One::model_name, One::variant, typeid(One), run_pair<One, S>, refusal_of<One, S>});
   };
   (add_one(TypeList<M>{}), ...);
 }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -306,15 +307,20 @@ Certified<Real> certify(F& f, const CertifyProblem<Real>& problem, const Certify
   return certify(f, f, problem, options);
 }
 
-/// Distances in the caller's own metric at every output time; distance(state, state) returns a Real. States
-/// that are missing or not finite give an infinite distance and are not shown to the metric.
+/// Distances in the caller's own metric at every output time; distance(state, state), or distance(t, state,
+/// state) where it depends on the time, returns a Real. States that are missing or not finite give an
+/// infinite distance and are not shown to the metric.
 template <class Real, class Metric>
 std::vector<Distances<Real>> measure_distances(const Certified<Real>& solution, Metric&& distance) {
   const auto at = [&](const Trajectory<Real>& a, const Trajectory<Real>& b, std::size_t k) -> Real {
     const bool usable = k < a.size() && k < b.size() &&
                         generic::detail::all_finite(a[k].data(), a[k].size()) &&
                         generic::detail::all_finite(b[k].data(), b[k].size());
-    return usable ? Real(distance(a[k], b[k])) : std::numeric_limits<Real>::infinity();
+    if (!usable) return std::numeric_limits<Real>::infinity();
+    if constexpr (std::is_invocable_v<Metric&, Real, const std::vector<Real>&, const std::vector<Real>&>)
+      return Real(distance(solution.times[k], a[k], b[k]));
+    else
+      return Real(distance(a[k], b[k]));
   };
   std::vector<Distances<Real>> all(solution.times.size());
   for (std::size_t k = 0; k < all.size(); ++k)

@@ -44,7 +44,7 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
   const auto form = model.ode();
   const std::size_t n = static_cast<std::size_t>(form.size());
   std::vector<double> start(n);
-  form.pack(model.initial(), start.data());
+  form.pack(0.0, model.initial(), start.data());
   const std::vector<double> scales = form.scales(), breaks = model.breaks();
 
   CertifyProblem<Real> problem;
@@ -72,9 +72,9 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
   }
   const Certified<Real> solution = certify(rhs, problem, options);
 
-  const auto state_of = [&](const std::vector<Real>& y) {
+  const auto state_of = [&](double t, const std::vector<Real>& y) {
     const std::vector<double> rounded(y.begin(), y.end());
-    return form.unpack(rounded.data());
+    return form.unpack(t, rounded.data());
   };
   ReferenceStates reference;
   reference.methods = solution.methods;
@@ -82,11 +82,13 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
   reference.message = solution.message;
   if (!solution.converged) return reference;
   reference.kind = "certified";
-  for (const auto& y : solution.tight) reference.states.push_back(model.flatten(state_of(y)));
+  for (std::size_t k = 0; k < times.size(); ++k)
+    reference.states.push_back(model.flatten(state_of(times[k], solution.tight[k])));
   reference.bounds.assign(times.size(), std::vector<double>(M::metrics.size()));
   for (std::size_t metric = 0; metric < M::metrics.size(); ++metric) {
-    const auto distance = [&](const std::vector<Real>& a, const std::vector<Real>& b) {
-      return static_cast<Real>(model.distance(state_of(a), state_of(b))[metric]);
+    const auto distance = [&](Real t, const std::vector<Real>& a, const std::vector<Real>& b) {
+      const double at = static_cast<double>(t);
+      return static_cast<Real>(model.distance(state_of(at, a), state_of(at, b))[metric]);
     };
     // The states are rounded to double: a few units in the last place.
     const std::vector<Real> bounds =

@@ -81,7 +81,7 @@ class SystemRecorder {
   }
   void sample(double t, const double* y) {
     result_.sample_times.push_back(t);
-    result_.samples.push_back(system_.model_state(y));
+    result_.samples.push_back(system_.model_state(t, y));
   }
 
  private:
@@ -157,7 +157,7 @@ RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
       }
       if (solver.t() >= spec.t_end) break;
       const long steps = solver.cost().steps;
-      if (!all_finite(system.model_state(solver.y()))) {
+      if (!all_finite(system.model_state(solver.t(), solver.y()))) {
         result.status = Status::diverged;
       } else if (stall.stalls(solver.t(), steps)) {
         result.status = Status::solver_failed;
@@ -174,10 +174,10 @@ RunResult run_adaptive(AdaptiveSolver& solver, const FirstOrderSystem& system,
     if (result.status != Status::ok) break;
     if (halt.watch) recorder.watch(solver.t(), solver.y());
     if (halt.sample) recorder.sample(solver.t(), solver.y());
-    if (halt.jump) solver.restart(spec.t_end);
+    if (halt.jump) solver.restart();
   }
   result.t = solver.t();
-  result.state = system.model_state(solver.y());
+  result.state = system.model_state(solver.t(), solver.y());
   result.cost = solver.cost();
   if (result.status == Status::ok && !all_finite(result.state)) result.status = Status::diverged;
   if (result.message.empty()) {

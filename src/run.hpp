@@ -223,8 +223,8 @@ class AdaptiveSolver {
   /// back earlier with Status::step_limit, after `step_window` steps or the run's limit, to be called again.
   /// After a failure `message` says why and t and y are those of the last good step.
   virtual Status advance(double t_stop, bool one_step) = 0;
-  /// Forgets the past, for data that jump at the present time; t_stop is where it goes next.
-  virtual void restart(double t_stop) = 0;
+  /// Forgets the past, for data that jump at the present time.
+  virtual void restart() = 0;
   virtual double t() const = 0;
   virtual const double* y() const = 0;
   virtual Cost cost() const = 0;

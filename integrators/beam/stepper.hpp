@@ -5,12 +5,14 @@
 #include <limits>
 #include <vector>
 
-#include "integrators/beam/element_chain.hpp"
 #include "integrators/beam/point_step.hpp"
+#include "models/planar_beam/element_chain.hpp"
 #include "models/planar_beam/statics.hpp"
 #include "src/status.hpp"
 
 namespace gnomon::beam {
+
+using planar_beam::ElementChain;
 
 /// What a model offers to be run by these schemes: equal elements in a chain, points, loads, supports.
 template <class M>

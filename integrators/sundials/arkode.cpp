@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "integrators/sundials/schemes.hpp"
 #include "integrators/sundials/session.hpp"
 
@@ -6,10 +10,11 @@ namespace {
 
 class Arkode final : public Session {
  public:
-  Arkode(const OdeSystem& system, const RunSpec& spec, bool implicit, const char* table)
+  Arkode(const RateSystem& system, const MassSystem* mass, const RunSpec& spec, int table)
       : Session(system, spec),
         system_(system),
-        erk_(!implicit),
+        mass_(mass),
+        erk_(is_explicit(table)),
         memory_((system.start(N_VGetArrayPointer(y_.get())), erk_)
                     ? ERKStepCreate(rhs, 0.0, y_.get(), context_)
                     : ARKStepCreate(nullptr, rhs, 0.0, y_.get(), context_),
@@ -20,9 +25,10 @@ class Arkode final : public Session {
     check(arkode_set_tolerances(erk_)(memory_, rtol_, atol_.get()), "ARKodeSVtolerances");
     check(arkode_set_max_hnil(erk_)(memory_, -1), "ARKodeSetMaxHnilWarns");
     if (erk_) {
-      check(ERKStepSetTableName(memory_, table), "ERKStepSetTableName");
+      check(ERKStepSetTableNum(memory_, static_cast<ARKODE_ERKTableID>(table)), "ERKStepSetTableNum");
     } else {
-      check(ARKStepSetTableName(memory_, table, "ARKODE_ERK_NONE"), "ARKStepSetTableName");
+      check(ARKStepSetTableNum(memory_, static_cast<ARKODE_DIRKTableID>(table), ARKODE_ERK_NONE),
+            "ARKStepSetTableNum");
       linear_ = make_linear(system, y_.get(), context_);
       check(arkode_set_linear_solver(memory_, linear_.solver.get(), linear_.matrix.get()),
             "ARKodeSetLinearSolver");
@@ -31,6 +37,16 @@ class Arkode final : public Session {
       // problems, ARKODE takes its first iterate for granted, and by default the step may have changed by 20
       // % since.
       check(arkode_set_delta_gamma_max(memory_, 1e-12), "ARKodeSetDeltaGammaMax");
+      // Stages are predicted by the interpolant of the last step, of an order that falls with the stage's
+      // distance. By default it is the last state, which on nonlinear problems costs Newton's iteration
+      // twice as much and makes it fail.
+      check(arkode_set_predictor(memory_, 2), "ARKodeSetPredictorMethod");
+      if (mass) {
+        mass_linear_ = make_linear(system, y_.get(), context_);
+        check(arkode_set_mass_solver(memory_, mass_linear_.solver.get(), mass_linear_.matrix.get(), 0),
+              "ARKodeSetMassLinearSolver");
+        check(arkode_set_mass(memory_, mass_matrix), "ARKodeSetMassFn");
+      }
     }
   }
 
@@ -41,7 +57,7 @@ class Arkode final : public Session {
         arkode_evolve(erk_)(memory_, t_stop, y_.get(), &t_, one_step ? ARK_ONE_STEP : ARK_NORMAL);
     return finish(flag, arkode_flag_name(erk_), "ARKODE");
   }
-  void restart(double) override {
+  void restart() override {
     past_ = cost();
     enter_segment();
     rhs_ = 0;
@@ -76,6 +92,12 @@ class Arkode final : public Session {
     arkode_get_steps(erk_)(memory_, &steps);
     return past_.steps + steps;
   }
+  /// The numbers of SUNDIALS' explicit and implicit tables do not overlap.
+  static bool is_explicit(int table) {
+    if (table >= ARKODE_MIN_ERK_NUM && table <= ARKODE_MAX_ERK_NUM) return true;
+    if (table >= ARKODE_MIN_DIRK_NUM && table <= ARKODE_MAX_DIRK_NUM) return false;
+    throw std::runtime_error(fmt::format("ARKODE has no Butcher table with the number {}", table));
+  }
   static int rhs(sunrealtype t, N_Vector y, N_Vector rate, void* user) {
     auto* self = static_cast<Arkode*>(user);
     return self->guarded([&] {
@@ -93,7 +115,14 @@ class Arkode final : public Session {
     });
   }
 
-  const OdeSystem& system_;
+  static int mass_matrix(sunrealtype, SUNMatrix M, void* user, N_Vector, N_Vector, N_Vector) {
+    auto* self = static_cast<Arkode*>(user);
+    return self->guarded([&] { self->mass_->mass(matrix_values(M, self->pattern_)); });
+  }
+
+  const RateSystem& system_;
+  const MassSystem* mass_;  ///< none: the unit matrix
+  Linear mass_linear_;
   bool erk_;
   Memory memory_;
   Cost past_;
@@ -101,9 +130,11 @@ class Arkode final : public Session {
 
 }  // namespace
 
-std::unique_ptr<AdaptiveSolver> make_arkode(const OdeSystem& system, const RunSpec& spec, bool implicit,
-                                            const char* table) {
-  return std::make_unique<Arkode>(system, spec, implicit, table);
+std::unique_ptr<AdaptiveSolver> make_arkode(const OdeSystem& system, const RunSpec& spec, int table) {
+  return std::make_unique<Arkode>(system, nullptr, spec, table);
+}
+std::unique_ptr<AdaptiveSolver> make_arkode(const MassSystem& system, const RunSpec& spec, int table) {
+  return std::make_unique<Arkode>(system, &system, spec, table);
 }
 
 }  // namespace gnomon::sundials

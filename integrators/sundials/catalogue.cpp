@@ -10,8 +10,8 @@ namespace gnomon {
 
 void add_sundials_schemes(Catalogue& catalogue) {
   using namespace sundials;
-  using Schemes =
-      TypeList<CvodeAdams, CvodeBdf, ArkodeErk4, ArkodeErk5, ArkodeErk8, ArkodeDirk, IdaBdf, IdaBdfIndex2>;
+  using Schemes = TypeList<CvodeAdams, CvodeBdf, ArkodeErk4, ArkodeErk5, ArkodeErk8, ArkodeDirk, IdaBdf,
+                           IdaBdfConstraints, IdaBdfIndex2>;
   add_schemes<Models>(catalogue, Schemes{});
   const std::string suitesparse =
       fmt::format("{}.{}.{}", SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION);

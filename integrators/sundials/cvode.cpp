@@ -19,9 +19,13 @@ class Cvode final : public Session {
     check(CVodeSetMaxHnilWarns(memory_, -1), "CVodeSetMaxHnilWarns");
     // Newton also for Adams: on fast tops it takes half the steps of the fixed-point iteration at tight
     // tolerances.
-    linear_ = make_linear(system, y_.get(), context_);
+    newton_ = system.newton_solver();
+    linear_ = newton_ ? make_linear(*newton_, context_) : make_linear(system, y_.get(), context_);
     check(CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()), "CVodeSetLinearSolver");
-    check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
+    if (newton_)
+      check(CVodeSetLinSysFn(memory_, linear_system), "CVodeSetLinSysFn");
+    else
+      check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
   }
 
   Status advance(double t_stop, bool one_step) override {
@@ -30,7 +34,7 @@ class Cvode final : public Session {
     const int flag = CVode(memory_, t_stop, y_.get(), &t_, one_step ? CV_ONE_STEP : CV_NORMAL);
     return finish(flag, CVodeGetReturnFlagName, "CVODE");
   }
-  void restart(double) override {
+  void restart() override {
     past_ = cost();
     enter_segment();
     rhs_ = 0;
@@ -77,7 +81,19 @@ class Cvode final : public Session {
     });
   }
 
+  /// 1 - gamma J by the system's own solver. CVODE says when J of an earlier step will do (jok).
+  static int linear_system(sunrealtype t, N_Vector y, N_Vector, SUNMatrix, int jok, int* current,
+                           sunrealtype gamma, void* user, N_Vector, N_Vector, N_Vector) {
+    auto* self = static_cast<Cvode*>(user);
+    return self->guarded([&] {
+      if (!jok) self->newton_->linearise(self->one_sided(t), N_VGetArrayPointer(y));
+      *current = !jok;
+      self->newton_->factorise(gamma);
+    });
+  }
+
   const OdeSystem& system_;
+  std::unique_ptr<NewtonSolver> newton_;
   Memory memory_;
   Cost past_;
 };

@@ -1,3 +1,4 @@
+#include "integrators/sundials/index.hpp"
 #include "integrators/sundials/schemes.hpp"
 #include "integrators/sundials/session.hpp"
 
@@ -6,9 +7,10 @@ namespace {
 
 class Ida final : public Session {
  public:
-  Ida(const DaeSystem& system, const RunSpec& spec)
+  Ida(const DaeSystem& system, const RunSpec& spec, bool check_index)
       : Session(system, spec), system_(system), rate_(make_vector()), memory_(IDACreate(context_), IDAFree) {
-    system.start(N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(rate_.get()));
+    system.start(N_VGetArrayPointer(y_.get()));
+    if (check_index && index_exceeds_one(system)) too_high_index_ = true;
     if (!memory_) throw std::runtime_error("IDACreate failed");
     keep_ida_messages(memory_, &messages_);
     check(IDAInit(memory_, residual, 0.0, y_.get(), rate_.get()), "IDAInit");
@@ -25,24 +27,24 @@ class Ida final : public Session {
   }
 
   Status advance(double t_stop, bool one_step) override {
+    if (too_high_index_) {
+      message_ =
+          "the DAE form has index 2 or more at its start: Newton's matrix becomes singular as the step tends "
+          "to 0, so IDA's error test does not control what the algebraic variables do";
+      return Status::solver_failed;
+    }
+    if (behind_break_) go_on();
     if (stop_ != t_stop) IDASetStopTime(memory_, stop_ = t_stop);
     IDASetMaxNumSteps(memory_, call_limit(steps()));
     const int flag =
         IDASolve(memory_, t_stop, &t_, y_.get(), rate_.get(), one_step ? IDA_ONE_STEP : IDA_NORMAL);
     return finish(flag, IDAGetReturnFlagName, "IDA");
   }
-  void restart(double t_stop) override {
+  void restart() override {
     past_ = cost();
     enter_segment();
     residuals_ = 0;
-    check(IDAReInit(memory_, t_, y_.get(), rate_.get()), "IDAReInit");
-    // The rates and algebraic variables behind a break are other ones. Where IDA cannot find them, as for
-    // stabilised forms, whose start is consistent by construction, it goes on from those it has.
-    if (IDACalcIC(memory_, IDA_YA_YDP_INIT, t_stop) == IDA_SUCCESS)
-      check(IDAGetConsistentIC(memory_, y_.get(), rate_.get()), "IDAGetConsistentIC");
-    else
-      check(IDAReInit(memory_, t_, y_.get(), rate_.get()), "IDAReInit");
-    messages_.last.clear();
+    behind_break_ = true;
   }
   Cost cost() const override {
     Cost cost = past_;
@@ -63,6 +65,12 @@ class Ida final : public Session {
   }
 
  private:
+  /// Until the first step behind a break, or behind the start, y is the limit from the left.
+  void go_on() {
+    behind_break_ = false;
+    system_.resume(t_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(rate_.get()));
+    check(IDAReInit(memory_, t_, y_.get(), rate_.get()), "IDAReInit");
+  }
   long steps() const {
     long steps = 0;
     IDAGetNumSteps(memory_, &steps);
@@ -90,14 +98,16 @@ class Ida final : public Session {
   Vector rate_;
   Vector id_;
   Memory memory_;
+  bool behind_break_ = true;
+  bool too_high_index_ = false;
   long residuals_ = 0;
   Cost past_;
 };
 
 }  // namespace
 
-std::unique_ptr<AdaptiveSolver> make_ida(const DaeSystem& system, const RunSpec& spec) {
-  return std::make_unique<Ida>(system, spec);
+std::unique_ptr<AdaptiveSolver> make_ida(const DaeSystem& system, const RunSpec& spec, bool check_index) {
+  return std::make_unique<Ida>(system, spec, check_index);
 }
 
 }  // namespace gnomon::sundials

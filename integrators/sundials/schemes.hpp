@@ -1,4 +1,9 @@
 #pragma once
+#include <cstdio>  // SUNDIALS 6.4 needs it first
+
+#include <arkode/arkode_butcher_dirk.h>
+#include <arkode/arkode_butcher_erk.h>
+
 #include <memory>
 
 #include "src/ode.hpp"
@@ -8,10 +13,14 @@
 namespace gnomon::sundials {
 
 std::unique_ptr<AdaptiveSolver> make_cvode(const OdeSystem& system, const RunSpec& spec, bool adams);
-/// An explicit table of ERKStep or a diagonally implicit one of ARKStep, by its name in SUNDIALS.
-std::unique_ptr<AdaptiveSolver> make_arkode(const OdeSystem& system, const RunSpec& spec, bool implicit,
-                                            const char* table);
-std::unique_ptr<AdaptiveSolver> make_ida(const DaeSystem& system, const RunSpec& spec);
+/// By an explicit table of ERKStep or a diagonally implicit one of ARKStep, an ARKODE_ERKTableID or
+/// ARKODE_DIRKTableID. Throws std::runtime_error where there is none of that number.
+std::unique_ptr<AdaptiveSolver> make_arkode(const OdeSystem& system, const RunSpec& spec, int table);
+std::unique_ptr<AdaptiveSolver> make_arkode(const MassSystem& system, const RunSpec& spec, int table);
+/// Ends with a reason on a form of index 2 or more. `check_index = false` is for showing what IDA does with
+/// such a form on its own.
+std::unique_ptr<AdaptiveSolver> make_ida(const DaeSystem& system, const RunSpec& spec,
+                                         bool check_index = true);
 
 /// Schemes on the ODE form.
 struct OnOde {
@@ -66,7 +75,7 @@ struct ArkodeErk4 : OnOde {
       .stepping = Stepping::adaptive,
   };
   static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
-    return make_arkode(system, spec, false, "ARKODE_ZONNEVELD_5_3_4");
+    return make_arkode(system, spec, ARKODE_ZONNEVELD_5_3_4);
   }
 };
 
@@ -80,7 +89,7 @@ struct ArkodeErk5 : OnOde {
       .stepping = Stepping::adaptive,
   };
   static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
-    return make_arkode(system, spec, false, "ARKODE_DORMAND_PRINCE_7_4_5");
+    return make_arkode(system, spec, ARKODE_DORMAND_PRINCE_7_4_5);
   }
 };
 
@@ -94,11 +103,11 @@ struct ArkodeErk8 : OnOde {
       .stepping = Stepping::adaptive,
   };
   static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
-    return make_arkode(system, spec, false, "ARKODE_FEHLBERG_13_7_8");
+    return make_arkode(system, spec, ARKODE_FEHLBERG_13_7_8);
   }
 };
 
-struct ArkodeDirk : OnOde {
+struct ArkodeDirk {
   static constexpr SchemeInfo info{
       .name = "arkode-dirk",
       .family = "sundials",
@@ -109,8 +118,18 @@ struct ArkodeDirk : OnOde {
       .form = "ode",
       .stepping = Stepping::adaptive,
   };
+  template <HasOde M>
+  static auto system(const M& model) {
+    if constexpr (HasMassForm<M>)
+      return erase_mass(model);
+    else
+      return erase_ode(model);
+  }
   static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
-    return make_arkode(system, spec, true, "ARKODE_KVAERNO_7_4_5");
+    return make_arkode(system, spec, ARKODE_KVAERNO_7_4_5);
+  }
+  static std::unique_ptr<AdaptiveSolver> make(const MassSystem& system, const RunSpec& spec) {
+    return make_arkode(system, spec, ARKODE_KVAERNO_7_4_5);
   }
 };
 
@@ -126,6 +145,29 @@ struct IdaBdf {
   template <HasDae M>
   static std::unique_ptr<DaeSystem> system(const M& model) {
     return erase_dae(model, model.dae());
+  }
+  static std::unique_ptr<AdaptiveSolver> make(const DaeSystem& system, const RunSpec& spec) {
+    return make_ida(system, spec);
+  }
+};
+
+struct IdaBdfConstraints {
+  static constexpr SchemeInfo info{
+      .name = "ida-bdf-constraints",
+      .family = "sundials",
+      .summary = "IDA, BDF of order 1 to 5 with variable step; supports kept as constraints, stabilised",
+      .citation =
+          "C.W. Gear, B. Leimkuhler, G.K. Gupta, J. Comput. Appl. Math. 12-13 (1985) 77-90; SUNDIALS IDA",
+      .form = "dae",
+      .stepping = Stepping::adaptive,
+  };
+  template <HasConstraintDae M>
+  static std::string_view refusal(const M& model) {
+    return model.is_constrained() ? "" : "it has no supports";
+  }
+  template <HasConstraintDae M>
+  static std::unique_ptr<DaeSystem> system(const M& model) {
+    return erase_dae(model, model.dae_constraints());
   }
   static std::unique_ptr<AdaptiveSolver> make(const DaeSystem& system, const RunSpec& spec) {
     return make_ida(system, spec);

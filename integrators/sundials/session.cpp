@@ -37,6 +37,43 @@ Linear make_linear(const FirstOrderSystem& system, N_Vector like, SUNContext con
   return linear;
 }
 
+namespace {
+
+SUNMatrix_ID matrix_id(SUNMatrix) { return SUNMATRIX_CUSTOM; }
+SUNLinearSolver_Type solver_type(SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; }
+SUNLinearSolver_ID solver_id(SUNLinearSolver) { return SUNLINEARSOLVER_CUSTOM; }
+int solver_set_up(SUNLinearSolver, SUNMatrix) { return 0; }
+int solver_solve(SUNLinearSolver solver, SUNMatrix, N_Vector x, N_Vector b, sunrealtype) {
+  double* values = N_VGetArrayPointer(x);
+  std::copy_n(N_VGetArrayPointer(b), N_VGetLength(b), values);
+  static_cast<NewtonSolver*>(solver->content)->solve(values);
+  return std::all_of(values, values + N_VGetLength(x), [](double v) { return std::isfinite(v); })
+             ? 0
+             : SUNLS_LUFACT_FAIL;
+}
+int solver_free(SUNLinearSolver solver) {
+  solver->content = nullptr;
+  SUNLinSolFreeEmpty(solver);
+  return 0;
+}
+
+}  // namespace
+
+Linear make_linear(NewtonSolver& newton, SUNContext context) {
+  Linear linear;
+  linear.matrix.reset(SUNMatNewEmpty(context));
+  linear.solver.reset(SUNLinSolNewEmpty(context));
+  if (!linear.matrix || !linear.solver) throw std::bad_alloc();
+  linear.matrix->ops->getid = matrix_id;
+  linear.solver->ops->gettype = solver_type;
+  linear.solver->ops->getid = solver_id;
+  linear.solver->ops->setup = solver_set_up;
+  linear.solver->ops->solve = solver_solve;
+  linear.solver->ops->free = solver_free;
+  linear.solver->content = &newton;
+  return linear;
+}
+
 double* matrix_values(SUNMatrix matrix, const std::optional<SparsePattern>& pattern) {
   if (!pattern) return SUNDenseMatrix_Data(matrix);
   std::copy(pattern->column_start.begin(), pattern->column_start.end(),

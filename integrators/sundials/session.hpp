@@ -66,6 +66,9 @@ struct Linear {
 };
 Linear make_linear(const FirstOrderSystem& system, N_Vector like, SUNContext context);
 
+/// The solver of a system that eliminates its own; its matrix is empty.
+Linear make_linear(NewtonSolver& newton, SUNContext context);
+
 /// Calls `fill(values)` on the entries of a dense matrix (all, by columns) or of a sparse one (in the
 /// pattern's order).
 double* matrix_values(SUNMatrix matrix, const std::optional<SparsePattern>& pattern);

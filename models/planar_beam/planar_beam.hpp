@@ -7,10 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "models/planar_beam/constraint_dae.hpp"
 #include "models/planar_beam/dae.hpp"
 #include "models/planar_beam/data.hpp"
 #include "models/planar_beam/element.hpp"
 #include "models/planar_beam/mass.hpp"
+#include "models/planar_beam/mass_form.hpp"
 #include "models/planar_beam/ode.hpp"
 #include "models/planar_beam/scales.hpp"
 #include "models/planar_beam/statics.hpp"
@@ -280,7 +282,10 @@ class PlanarBeam {
   }
 
   OdeForm<PlanarBeam> ode() const { return OdeForm<PlanarBeam>(*this); }
+  MassForm<PlanarBeam> mass_form() const { return MassForm<PlanarBeam>(*this); }
   DaeForm<PlanarBeam> dae() const { return DaeForm<PlanarBeam>(*this); }
+  ConstraintDaeForm<PlanarBeam> dae_constraints() const { return ConstraintDaeForm<PlanarBeam>(*this); }
+  bool is_constrained() const { return !held_.empty(); }
 
  private:
   /// phi0 at arc length x.

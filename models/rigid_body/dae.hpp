@@ -22,13 +22,16 @@ struct DaeForm {
   std::optional<SparsePattern> sparsity() const { return std::nullopt; }
   std::vector<int> algebraic() const { return {0, 0, 0, 0, 0, 0, 0, stabilised ? 0 : 1}; }
 
-  void pack(const State& state, double* y, double* rate) const {
+  void pack(double, const State& state, double* y) const {
     pack_state(state, y);
     y[7] = 0.0;
+  }
+  State unpack(double, const double* y) const { return unpack_state(y); }
+  /// Loads do not jump, and on the exact motion mu stays 0.
+  void resume(double, const double* y, double* rate) const {
     rates(inertia, load, y, rate);
     rate[7] = 0.0;
   }
-  State unpack(const double* y) const { return unpack_state(y); }
 
   void residual(double, const double* y, const double* rate, double* value) const {
     rates(inertia, load, y, value);

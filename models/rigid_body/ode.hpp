@@ -63,8 +63,8 @@ struct OdeForm {
     return scales;
   }
   std::optional<SparsePattern> sparsity() const { return std::nullopt; }
-  void pack(const State& state, double* y) const { pack_state(state, y); }
-  State unpack(const double* y) const { return unpack_state(y); }
+  void pack(double, const State& state, double* y) const { pack_state(state, y); }
+  State unpack(double, const double* y) const { return unpack_state(y); }
   void rhs(double, const double* y, double* rate) const { rates(inertia, load, y, rate); }
   void jacobian(double, const double* y, double* values) const {
     rates_jacobian(inertia, load, y, values, 7);

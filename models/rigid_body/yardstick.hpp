@@ -12,9 +12,9 @@ inline double run_plain_cvode(const void* model, double t_end, double tol, std::
   std::vector<double> atol = form.scales();
   for (double& value : atol) value *= tol;
   double y[7];
-  form.pack(body.initial(), y);
+  form.pack(0.0, body.initial(), y);
   const double seconds = gnomon_plain_cvode(body.inertia().data(), y, t_end, tol, atol.data(), &evaluations);
-  state = body.flatten(form.unpack(y));
+  state = body.flatten(form.unpack(t_end, y));
   return seconds;
 }
 

@@ -93,11 +93,14 @@ std::vector<const SchemeInfo*> select(const Catalogue& catalogue, const Scene& s
       throw UsageError(fmt::format("--integrators: found the unknown name '{}', expected {}", name,
                                    near.empty() ? fmt::format("one of {}", fmt::join(names, ", ")) : near));
     }
-    if (!catalogue.pair(name, *scene.model))
+    if (!catalogue.pair(name, *scene.model)) {
+      const std::string_view why = catalogue.refusal(name, *scene.model);
       throw UsageError(
-          fmt::format("--integrators: found '{}', which does not run on scene '{}' (model {}, load {}), "
+          fmt::format("--integrators: found '{}', which does not run on scene '{}' (model {}, load {}){}{}, "
                       "expected one of {}",
-                      name, scene.name, scene.model_name, scene.model->load_class(), fmt::join(names, ", ")));
+                      name, scene.name, scene.model_name, scene.model->load_class(), why.empty() ? "" : ": ",
+                      why, fmt::join(names, ", ")));
+    }
     chosen.push_back(info);
   }
   return chosen;

@@ -48,8 +48,8 @@ class Pendulum {
     int size() const { return 2; }
     std::vector<double> scales() const { return {1.0, 1.0 / model->time_scale()}; }
     std::optional<SparsePattern> sparsity() const { return std::nullopt; }
-    void pack(const State& s, double* y) const { y[0] = s.angle, y[1] = s.rate; }
-    State unpack(const double* y) const { return {y[0], y[1]}; }
+    void pack(double, const State& s, double* y) const { y[0] = s.angle, y[1] = s.rate; }
+    State unpack(double, const double* y) const { return {y[0], y[1]}; }
     void rhs(double, const double* y, double* rate) const {
       rate[0] = y[1], rate[1] = model->acceleration(y[0]);
     }

@@ -137,7 +137,8 @@ TEST_CASE("rigid body: the DAE forms start consistently", "[rigid_body]") {
       const BodyState state = random.state();
       double y[8], rate[8], value[8], ode_rate[7];
       const auto check = [&](const auto& form) {
-        form.pack(state, y, rate);
+        form.pack(0.0, state, y);
+        form.resume(0.0, y, rate);
         form.residual(0.0, y, rate, value);
         for (double v : value) CHECK(std::abs(v) <= 4.0 * eps);
         CHECK(y[7] == 0.0);
@@ -167,7 +168,7 @@ TEST_CASE("rigid body: rates in double and in long double", "[rigid_body]") {
     for (int k = 0; k < 200; ++k) {
       double y[7], rate[7];
       long double wide[7], wide_rate[7];
-      model.ode().pack(random.state(), y);
+      model.ode().pack(0.0, random.state(), y);
       std::copy(y, y + 7, wide);
       model.ode().rhs(0.0, y, rate);
       model.extended_rhs(0.0L, wide, wide_rate);
@@ -182,7 +183,7 @@ TEST_CASE("rigid body: the ODE form has the moment of the attitude form", "[rigi
     for (int k = 0; k < 50; ++k) {
       const BodyState state = random.state();
       double y[7], rate[7];
-      model.ode().pack(state, y);
+      model.ode().pack(0.0, state, y);
       model.ode().rhs(0.0, y, rate);
       const Vector3d& m = state.angular_momentum;
       const Vector3d w = m.cwiseQuotient(inertia);
@@ -196,7 +197,7 @@ TEST_CASE("rigid body: the ODE form has the moment of the attitude form", "[rigi
       double forth[7], back[7];
       for (int i = 0; i < 7; ++i) forth[i] = y[i] + step * rate[i], back[i] = y[i] - step * rate[i];
       const Matrix3d turning =
-          (model.ode().unpack(forth).attitude - model.ode().unpack(back).attitude) / (2.0 * step);
+          (model.ode().unpack(0.0, forth).attitude - model.ode().unpack(0.0, back).attitude) / (2.0 * step);
       Matrix3d hat;
       hat << 0.0, -w[2], w[1], w[2], 0.0, -w[0], -w[1], w[0], 0.0;
       CHECK((turning - state.attitude * hat).cwiseAbs().maxCoeff() <= 1e-9);
@@ -231,13 +232,13 @@ TEST_CASE("rigid body: states survive flattening, packing and unpacking", "[rigi
       CHECK(flat[1] == state.attitude(1, 0));
       if (k == 0) continue;
       double y[8], rate[8];
-      model.ode().pack(state, y);
+      model.ode().pack(0.0, state, y);
       CHECK(y[0] >= 0.0);
-      const BodyState unpacked = model.ode().unpack(y);
+      const BodyState unpacked = model.ode().unpack(0.0, y);
       CHECK((unpacked.attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * eps);
       CHECK(unpacked.angular_momentum == state.angular_momentum);
-      model.dae().pack(state, y, rate);
-      CHECK((model.dae().unpack(y).attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * eps);
+      model.dae().pack(0.0, state, y);
+      CHECK((model.dae().unpack(0.0, y).attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * eps);
     }
   });
 }
@@ -248,7 +249,7 @@ TEST_CASE("rigid body: the norm of a quaternion stays visible", "[rigid_body]") 
     double y[7] = {0.5, -0.5, 0.5, 0.5, 1.0, 2.0, 3.0};
     for (int k = 0; k < 4; ++k) y[k] *= 1.0 + 1e-6;
     std::vector<double> values(16);
-    model.invariants(0.0, model.ode().unpack(y), values.data());
+    model.invariants(0.0, model.ode().unpack(0.0, y), values.data());
     REQUIRE(model.invariant_info().front().name == "orthonormality");
     CHECK(std::abs(values[0] - 4e-6) <= 1e-10);
   });

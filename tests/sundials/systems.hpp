@@ -56,7 +56,7 @@ struct TestOde : OdeSystem {
   std::optional<SparsePattern> sparsity() const override { return pattern; }
   int invariant_count() const override { return 0; }
   void invariants(double, const double*, double*) const override {}
-  std::vector<double> model_state(const double* y) const override { return {y, y + size()}; }
+  std::vector<double> model_state(double, const double* y) const override { return {y, y + size()}; }
   void start(double* y) const override { std::copy(initial.begin(), initial.end(), y); }
   void rhs(double t, const double* y, double* rate) const override {
     ++rhs_calls;
@@ -72,7 +72,9 @@ struct TestOde : OdeSystem {
 
 /// The same system as F = y' - f(t, y) = 0, or with further algebraic rows 0 = g of the test's own.
 struct TestDae : DaeSystem {
-  std::vector<double> initial, initial_rate;
+  std::vector<double> initial;
+  /// Consistent values behind a break or the start; the rates are 0 on entry.
+  std::function<void(double t, double* y, double* rate)> go_on;
   std::function<void(double t, const double* y, const double* rate, double* value)> F;
   std::function<void(double t, double cj, const double* y, double* dense)> dF;  ///< by columns, zero on entry
   std::vector<int> is_algebraic;
@@ -86,10 +88,11 @@ struct TestDae : DaeSystem {
   std::optional<SparsePattern> sparsity() const override { return pattern; }
   int invariant_count() const override { return 0; }
   void invariants(double, const double*, double*) const override {}
-  std::vector<double> model_state(const double* y) const override { return {y, y + size()}; }
-  void start(double* y, double* rate) const override {
-    std::copy(initial.begin(), initial.end(), y);
-    std::copy(initial_rate.begin(), initial_rate.end(), rate);
+  std::vector<double> model_state(double, const double* y) const override { return {y, y + size()}; }
+  void start(double* y) const override { std::copy(initial.begin(), initial.end(), y); }
+  void resume(double t, double* y, double* rate) const override {
+    std::fill(rate, rate + size(), 0.0);
+    if (go_on) go_on(t, y, rate);
   }
   void residual(double t, const double* y, const double* rate, double* value) const override {
     ++residual_calls;
@@ -110,8 +113,7 @@ struct TestDae : DaeSystem {
 inline TestDae as_dae(const TestOde& ode) {
   TestDae dae;
   dae.initial = ode.initial;
-  dae.initial_rate.resize(ode.initial.size());
-  ode.f(0.0, ode.initial.data(), dae.initial_rate.data());
+  dae.go_on = [f = ode.f](double t, double* y, double* rate) { f(t, y, rate); };
   dae.F = [f = ode.f, n = ode.size()](double t, const double* y, const double* rate, double* value) {
     f(t, y, value);
     for (int k = 0; k < n; ++k) value[k] = rate[k] - value[k];

@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "integrators/beam/block_tridiagonal.hpp"
+#include "models/planar_beam/block_tridiagonal.hpp"
 
-namespace gnomon::beam {
+namespace gnomon::planar_beam {
 
 /// The linear system of a chain of elements of order p with three unknowns a node. The inner nodes of each
 /// element are eliminated within it (static condensation), the end nodes remain as a block tridiagonal
@@ -101,4 +101,4 @@ class ElementChain {
   std::vector<int> held_;
 };
 
-}  // namespace gnomon::beam
+}  // namespace gnomon::planar_beam

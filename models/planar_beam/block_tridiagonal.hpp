@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <vector>
 
-namespace gnomon::beam {
+namespace gnomon::planar_beam {
 
 /// A block tridiagonal matrix of 3 x 3 blocks, at least two of them in a row, and its elimination from both
 /// ends to the middle without exchanges between blocks: two chains of operations that do not wait for each
@@ -107,4 +107,4 @@ class BlockTridiagonal {
   int middle_;
 };
 
-}  // namespace gnomon::beam
+}  // namespace gnomon::planar_beam

@@ -1,0 +1,136 @@
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "models/planar_beam/data.hpp"
+#include "models/planar_beam/scales.hpp"
+#include "models/planar_beam/sparse.hpp"
+
+namespace gnomon::planar_beam {
+
+/// All unknowns, with what the supports hold kept as constraints g(u, t) = u_c - s(t) = 0, G = dg/du, in the
+/// stabilised form of C.W. Gear, B. Leimkuhler, G.K. Gupta, J. Comput. Appl. Math. 12-13 (1985) 77-90:
+///   u' = v + G^T mu',  M v' = f_ext(t) - f_int(u) + G^T lambda',  0 = g(u, t),  0 = G v + g_t,
+/// y = (u, v, mu, lambda), mu(0) = lambda(0) = 0. With the primitives of the multipliers as unknowns it has
+/// index 1, and all of y is in the error test. lambda is the impulse of the supports' forces, without those
+/// that make v jump; mu stays 0 on the exact motion.
+template <class Beam>
+class ConstraintDaeForm {
+ public:
+  explicit ConstraintDaeForm(const Beam& beam)
+      : beam_(&beam),
+        n_(beam.unknowns()),
+        m_(static_cast<int>(beam.held().size())),
+        layout_(2 * (n_ + m_)),
+        matrices_(beam, all_places(beam), n_, n_),
+        forces_(n_),
+        external_(n_) {
+    for (int j = 0; j < n_; ++j) {
+      layout_.add(j, j);
+      layout_.add(j, n_ + j);
+    }
+    matrices_.add_to(layout_);
+    for (int k = 0; k < m_; ++k) {
+      const int i = beam.held()[k];
+      layout_.add(2 * n_ + k, i);
+      layout_.add(2 * n_ + m_ + k, n_ + i);
+      layout_.add(i, 2 * n_ + k);
+      layout_.add(n_ + i, 2 * n_ + m_ + k);
+    }
+    layout_.finish();
+    matrices_.find(layout_);
+  }
+  int size() const { return 2 * (n_ + m_); }
+  std::optional<SparsePattern> sparsity() const { return layout_.pattern(); }
+  std::vector<int> algebraic() const { return std::vector<int>(size(), 0); }
+
+  /// mu has the units of u, lambda those of momenta.
+  std::vector<double> scales() const {
+    const Scales& motion = beam_->scales();
+    const double length = beam_->data().length;
+    std::vector<double> scales;
+    for (int i = 0; i < n_; ++i) scales.push_back(i % 3 == 2 ? 1.0 : length);
+    for (int i = 0; i < n_; ++i) scales.push_back(i % 3 == 2 ? motion.velocity / length : motion.velocity);
+    for (int i : beam_->held()) scales.push_back(i % 3 == 2 ? 1.0 : length);
+    for (int i : beam_->held()) scales.push_back(i % 3 == 2 ? motion.momentum * length : motion.momentum);
+    return scales;
+  }
+  void pack(double, const State& state, double* y) const {
+    std::copy(state.u.begin(), state.u.end(), y);
+    std::copy(state.v.begin(), state.v.end(), y + n_);
+    std::fill(y + 2 * n_, y + size(), 0.0);
+  }
+  State unpack(double, const double* y) const {
+    using Map = Eigen::Map<const Eigen::VectorXd>;
+    return {Map(y, n_), Map(y + n_, n_), beam_->strains(y)};
+  }
+
+  /// The impulse of a jump of a prescribed rate makes all velocities jump. Prescribed rates are constant
+  /// between breaks, so those ends do not accelerate.
+  void resume(double t, double* y, double* rate) const {
+    double* v = y + n_;
+    beam_->jump(t, v);
+    std::fill(rate, rate + size(), 0.0);
+    std::copy(v, v + n_, rate);
+    forces(t, y);
+    const Eigen::VectorXd loads = forces_;
+    beam_->accelerate(forces_.data());
+    std::copy(forces_.begin(), forces_.end(), rate + n_);
+    beam_->momentum(rate + n_, external_.data());
+    for (int k = 0; k < m_; ++k)
+      rate[2 * n_ + m_ + k] = external_[beam_->held()[k]] - loads[beam_->held()[k]];
+  }
+  void residual(double t, const double* y, const double* rate, double* value) const {
+    forces(t, y);
+    beam_->momentum(rate + n_, value + n_);
+    for (int i = 0; i < n_; ++i) {
+      value[i] = rate[i] - y[n_ + i];
+      value[n_ + i] -= forces_[i];
+    }
+    for (int k = 0; k < m_; ++k) {
+      const int i = beam_->held()[k];
+      const Motion* motion = beam_->prescribed(i);
+      value[i] -= rate[2 * n_ + k];
+      value[n_ + i] -= rate[2 * n_ + m_ + k];
+      value[2 * n_ + k] = y[i] - (motion ? motion->value(t) : 0.0);
+      value[2 * n_ + m_ + k] = y[n_ + i] - (motion ? motion->rate_after(t) : 0.0);
+    }
+  }
+  void jacobian(double, double cj, const double* y, const double*, double* values) const {
+    std::fill(values, values + layout_.count(), 0.0);
+    for (int j = 0; j < n_; ++j) {
+      values[layout_.pattern().column_start[j]] = cj;
+      values[layout_.pattern().column_start[n_ + j]] = -1.0;
+    }
+    matrices_.add_mass(cj, values);
+    matrices_.add_stiffness(y, 1.0, values);
+    for (int k = 0; k < m_; ++k) {
+      const int i = beam_->held()[k];
+      values[layout_.slot(2 * n_ + k, i)] = 1.0;
+      values[layout_.slot(2 * n_ + m_ + k, n_ + i)] = 1.0;
+      values[layout_.slot(i, 2 * n_ + k)] = -cj;
+      values[layout_.slot(n_ + i, 2 * n_ + m_ + k)] = -cj;
+    }
+  }
+
+ private:
+  static std::vector<int> all_places(const Beam& beam) {
+    std::vector<int> place(beam.unknowns());
+    for (int i = 0; i < beam.unknowns(); ++i) place[i] = i;
+    return place;
+  }
+  /// External less internal forces.
+  void forces(double t, const double* u) const {
+    beam_->internal_force(u, forces_.data());
+    beam_->external_force(t, external_.data());
+    forces_ = external_ - forces_;
+  }
+  const Beam* beam_;
+  int n_, m_;  ///< unknowns and constraints
+  SparseLayout layout_;
+  ChainMatrices<Beam> matrices_;
+  mutable Eigen::VectorXd forces_, external_;
+};
+
+}  // namespace gnomon::planar_beam
