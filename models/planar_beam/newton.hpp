@@ -29,7 +29,6 @@ class NewtonElimination : private FreeUnknowns<Beam> {
     gamma_ = gamma;
     const auto& element = this->beam_->element();
     const double inertia[3] = {this->beam_->density(0), this->beam_->density(1), this->beam_->density(2)};
-    chain_.clear();
     for (int e = 0; e < this->beam_->elements(); ++e) {
       matrix_ = gamma * gamma * tangents_[e];
       for (int a = 0; a <= p; ++a)

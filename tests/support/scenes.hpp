@@ -35,6 +35,14 @@ inline std::vector<SchemeInfo> schemes(const Catalogue& catalogue, Stepping step
   return chosen;
 }
 
+/// Those of them that run on a model.
+inline std::vector<SchemeInfo> schemes(const Catalogue& catalogue, Stepping stepping, const AnyModel& model) {
+  std::vector<SchemeInfo> chosen;
+  for (const SchemeInfo* info : catalogue.schemes_for(model))
+    if (info->stepping == stepping) chosen.push_back(*info);
+  return chosen;
+}
+
 /// The model of a scene as the type it has.
 template <class M>
 const M& typed(const Scene& scene) {
