@@ -11,6 +11,7 @@
 #include "models/planar_beam/dae.hpp"
 #include "models/planar_beam/data.hpp"
 #include "models/planar_beam/element.hpp"
+#include "models/planar_beam/field.hpp"
 #include "models/planar_beam/mass.hpp"
 #include "models/planar_beam/mass_form.hpp"
 #include "models/planar_beam/ode.hpp"
@@ -194,6 +195,15 @@ class PlanarBeam {
       return std::sqrt(std::max(sum, 0.0) / data_.length);
     };
     return {norm(du, 0, 2), norm(du, 2, 3), norm(dv, 0, 2), norm(dv, 2, 3)};
+  }
+
+  /// See field.hpp.
+  std::vector<double> field(const State& state, const std::vector<double>& places) const {
+    return planar_beam::field<p>(state, elements(), places);
+  }
+  static std::array<double, 4> field_distance(const std::vector<double>& field,
+                                              const std::vector<double>& reference) {
+    return planar_beam::field_distance(field, reference);
   }
 
   /// Energy, and the momenta of a beam that nothing holds or pushes; from the end of the last change of the

@@ -51,6 +51,19 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {{"compare", "s.toml", "s.toml"},
        "SCENE: found two scenes with the name 'a', expected different names"},
       // Options.
+      {{"converge", "s.toml", "--refine", "beam.elements"},
+       "--refine: found 'beam.elements', expected KEY=V1,V2,.. with at least two ascending numbers, as in "
+       "beam.elements=4,8,16,32"},
+      {{"converge", "s.toml", "--refine", "beam.elements=8,4"},
+       "--refine: found 'beam.elements=8,4', expected KEY=V1,V2,.. with at least two ascending numbers, as "
+       "in "
+       "beam.elements=4,8,16,32"},
+      {{"converge", "s.toml", "--refine", "beam.elements=4,x"},
+       "--refine: found 'x', expected positive numbers in KEY=V1,V2,.."},
+      {{"converge", "s.toml", "space-moment", "--refine", "beam.elements=4,8"},
+       "--refine: found 2 scenes, expected one"},
+      {{"converge", "s.toml", "--refine", "load.weight=1,2"},
+       "--set load.weight=1: load.kind: found nothing, expected PLACEHOLDER"},
       {run_of("s.toml", {"--smaples", "3"}), "run: found the unknown option '--smaples', expected --samples"},
       {run_of("s.toml", {"-x"}),
        "run: found the unknown option '-x', expected one of --integrator, --step, --tol, --t-end, --set, "
