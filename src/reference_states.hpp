@@ -68,7 +68,7 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
     options.loose = 1e-11;
     options.target = 1e-10;
     options.steps_ratio = 16;
-    options.max_evaluations = std::min(max_evaluations, 10'000'000L);
+    options.max_evaluations = std::min(max_evaluations, 4'000'000L);
   }
   const Certified<Real> solution = certify(rhs, problem, options);
 

@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gnomon {
 namespace {
-
-// Long enough for a step's share of the start to vanish, short enough to stay in the cache's and clock's
-// quiet.
-constexpr long steps_a_run = 100'000;
 
 WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
   const Scene scene = load_scene(runner.catalogue(), std::string(yardstick.scene));
@@ -53,7 +50,8 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
   std::vector<TimedTask> tasks;
   for (const SpeedPlan& plan : plans) {
     SceneChanges changes;
-    changes.t_end = plan.step * static_cast<double>(steps_a_run);
+    changes.t_end = plan.step * static_cast<double>(plan.steps);
+    changes.set = plan.set;
     scenes.push_back(load_scene(runner.catalogue(), plan.scene, changes));
     for (const SchemeInfo* scheme : runner.catalogue().schemes_for(*scenes.back().model)) {
       if (scheme->stepping != Stepping::fixed) continue;
@@ -61,11 +59,12 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
       spec.t_end = scenes.back().t_end;
       spec.step = plan.step;
       spec.record = false;
+      spec.newton_tol = plan.newton_tol;
       const auto run = runner.catalogue().pair(scheme->name, *scenes.back().model)->run;
       const std::shared_ptr<const AnyModel> model = scenes.back().model;
       tasks.push_back({[=] { return run(model->get(), spec).cpu_seconds; }});
       study.steps.push_back(
-          {plan.scene, std::string(model->load_class()), scheme, plan.step, steps_a_run, {}});
+          {plan.scene, std::string(model->load_class()), scheme, plan.step, plan.steps, plan.parts, {}});
     }
   }
   TimingPlan plan;
@@ -73,14 +72,27 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
   plan.timer_cost = timer_cost();
   const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
   for (std::size_t k = 0; k < stats.size(); ++k) study.steps[k].run = stats[k];
+  const auto is_planned = [&](const Yardstick& yardstick) {
+    const std::string model = load_scene(runner.catalogue(), std::string(yardstick.scene)).model_name;
+    return std::any_of(scenes.begin(), scenes.end(),
+                       [&](const Scene& scene) { return scene.model_name == model; });
+  };
   for (const Yardstick& yardstick : runner.catalogue().yardsticks)
-    study.wrappers.push_back(measure(runner, yardstick));
+    if (is_planned(yardstick)) study.wrappers.push_back(measure(runner, yardstick));
   return study;
 }
 
 output::Table step_times_table(const SpeedStudy& study) {
   output::Table table;
-  table.caption = "Time of one step, one body, one core";
+  const bool parts = std::any_of(study.steps.begin(), study.steps.end(),
+                                 [](const StepTime& time) { return time.parts != 1.0; });
+  const long shortest =
+      study.steps.empty()
+          ? 0
+          : std::min_element(study.steps.begin(), study.steps.end(),
+                             [](const StepTime& a, const StepTime& b) { return a.steps < b.steps; })
+                ->steps;
+  table.caption = parts ? "Time of one step, one core" : "Time of one step, one body, one core";
   table.columns = {{"integrator", "integrator", output::Align::left},
                    {"scene", "scene", output::Align::left},
                    {"load", "load", output::Align::left},
@@ -88,6 +100,10 @@ output::Table step_times_table(const SpeedStudy& study) {
                    {"ns_min", "least [ns]"},
                    {"ns_max", "most [ns]"},
                    {"repetitions", "repetitions"}};
+  if (parts) {
+    table.columns.push_back({"parts", "parts"});
+    table.columns.push_back({"ns_part", "a part [ns]"});
+  }
   for (const StepTime& time : study.steps) {
     const double scale = 1e9 / static_cast<double>(time.steps);
     output::Cell median = output::number_cell(time.ns());
@@ -96,9 +112,13 @@ output::Table step_times_table(const SpeedStudy& study) {
                           output::number_cell(scale * time.run.min),
                           output::number_cell(scale * time.run.max),
                           output::count_cell(time.run.repetitions)});
+    if (parts) {
+      table.rows.back().push_back(output::number_cell(time.parts, 6));
+      table.rows.back().push_back(output::number_cell(time.ns() / time.parts, 3));
+    }
   }
-  table.notes.push_back(
-      fmt::format("runs of {} steps, interleaved; * repetitions differ by more than 5 %", steps_a_run));
+  table.notes.push_back(fmt::format("runs of {}{} steps, interleaved; * repetitions differ by more than 5 %",
+                                    parts ? "at least " : "", shortest));
   return table;
 }
 
@@ -131,6 +151,7 @@ nlohmann::ordered_json speed_json(const SpeedStudy& study) {
     json["steps"].push_back({{"integrator", time.scheme->name},
                              {"scene", time.scene},
                              {"step", time.step},
+                             {"parts", time.parts},
                              {"ns_median", time.ns()},
                              {"repetitions", time.run.repetitions},
                              {"unstable", time.run.unstable}});

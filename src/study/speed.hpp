@@ -16,6 +16,7 @@ struct StepTime {
   const SchemeInfo* scheme;
   double step;      ///< s
   long steps;       ///< a run
+  double parts;     ///< equal parts of the system
   TimingStats run;  ///< of the whole run, s
   double ns() const { return 1e9 * run.median / static_cast<double>(steps); }
 };

@@ -38,8 +38,13 @@ StudyPlan read_study(const std::string& path) {
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](Section& section) {
-    plan.speed.push_back(
-        {section.text("scene", "a scene's name"), section.positive("step", "a positive number (s)")});
+    SpeedPlan speed{section.text("scene", "a scene's name"),
+                    section.positive("step", "a positive number (s)")};
+    if (section.has("steps")) speed.steps = section.integer("steps", 1, 100'000'000, "a number of steps");
+    if (section.has("parts")) speed.parts = section.positive("parts", "a number of parts");
+    if (section.has("newton_tol")) speed.newton_tol = section.positive("newton_tol", "a tolerance");
+    speed.set = section.texts("set", "texts key.path=value");
+    plan.speed.push_back(std::move(speed));
   });
   root.finish();
   return plan;

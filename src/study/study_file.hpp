@@ -17,6 +17,10 @@ struct DriftPlan {
 struct SpeedPlan {
   std::string scene;
   double step;
+  long steps = 100'000;          ///< a run
+  std::vector<std::string> set;  ///< changes of the scene, key.path=value
+  double parts = 1.0;  ///< equal parts of the system, such as elements, the time is also given for one
+  double newton_tol = 1e-10;
 };
 
 /// What `bench` does with one model, read from its study.toml.

@@ -36,7 +36,7 @@ TEST_CASE("planar beam: rates and invariants allocate nothing", "[planar_beam][a
   const auto ode = model.ode();
   std::vector<double> y(static_cast<std::size_t>(ode.size())), rate(y.size());
   const auto state = model.initial();
-  ode.pack(state, y.data());
+  ode.pack(0.0, state, y.data());
   ode.rhs(0.0, y.data(), rate.data());
   double found[4];
   CHECK(allocations_of([&] {
