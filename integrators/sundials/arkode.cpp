@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
 
 #include "integrators/sundials/schemes.hpp"
 #include "integrators/sundials/session.hpp"
@@ -13,7 +15,6 @@ class Arkode final : public Session {
   Arkode(const RateSystem& system, const MassSystem* mass, const RunSpec& spec, int table)
       : Session(system, spec),
         system_(system),
-        mass_(mass),
         erk_(is_explicit(table)),
         memory_((system.start(N_VGetArrayPointer(y_.get())), erk_)
                     ? ERKStepCreate(rhs, 0.0, y_.get(), context_)
@@ -32,7 +33,7 @@ class Arkode final : public Session {
       linear_ = make_linear(system, y_.get(), context_);
       check(arkode_set_linear_solver(memory_, linear_.solver.get(), linear_.matrix.get()),
             "ARKodeSetLinearSolver");
-      check(arkode_set_jacobian(memory_, jacobian), "ARKodeSetJacFn");
+      if (!mass) check(arkode_set_jacobian(memory_, jacobian), "ARKodeSetJacFn");
       // A matrix of an old step is never good enough: where Newton has converged at once before, as on linear
       // problems, ARKODE takes its first iterate for granted, and by default the step may have changed by 20
       // % since.
@@ -46,6 +47,11 @@ class Arkode final : public Session {
         check(arkode_set_mass_solver(memory_, mass_linear_.solver.get(), mass_linear_.matrix.get(), 0),
               "ARKodeSetMassLinearSolver");
         check(arkode_set_mass(memory_, mass_matrix), "ARKodeSetMassFn");
+        check(arkode_set_linear_system(memory_, linear_system), "ARKodeSetLinSysFn");
+        const std::size_t n = static_cast<std::size_t>(size_);
+        mass_values_.resize(pattern_ ? pattern_->row.size() : n * n);
+        jacobian_values_.resize(mass_values_.size());
+        mass->mass(mass_values_.data());
       }
     }
   }
@@ -117,11 +123,26 @@ class Arkode final : public Session {
 
   static int mass_matrix(sunrealtype, SUNMatrix M, void* user, N_Vector, N_Vector, N_Vector) {
     auto* self = static_cast<Arkode*>(user);
-    return self->guarded([&] { self->mass_->mass(matrix_values(M, self->pattern_)); });
+    return self->guarded([&] {
+      std::copy(self->mass_values_.begin(), self->mass_values_.end(), matrix_values(M, self->pattern_));
+    });
+  }
+  /// M - gamma J, entry by entry. SUNDIALS' own sum of sparse matrices costs the square of their size.
+  static int linear_system(sunrealtype t, N_Vector y, N_Vector, SUNMatrix A, SUNMatrix, int jok, int* current,
+                           sunrealtype gamma, void* user, N_Vector, N_Vector, N_Vector) {
+    auto* self = static_cast<Arkode*>(user);
+    return self->guarded([&] {
+      if (!jok)
+        self->system_.jacobian(self->one_sided(t), N_VGetArrayPointer(y), self->jacobian_values_.data());
+      *current = !jok;
+      double* values = matrix_values(A, self->pattern_);
+      for (std::size_t k = 0; k < self->mass_values_.size(); ++k)
+        values[k] = self->mass_values_[k] - gamma * self->jacobian_values_[k];
+    });
   }
 
   const RateSystem& system_;
-  const MassSystem* mass_;  ///< none: the unit matrix
+  std::vector<double> mass_values_, jacobian_values_;  ///< where there is a mass matrix
   Linear mass_linear_;
   bool erk_;
   Memory memory_;
