@@ -113,7 +113,7 @@ struct ArkodeDirk {
       .family = "sundials",
       .summary =
           "ARKODE ARKStep, ARKODE_KVAERNO_7_4_5, diagonally implicit, order 5, Newton with the analytic "
-          "Jacobian",
+          "Jacobian, with the mass matrix where there is one",
       .citation = arkode_citation,
       .form = "ode",
       .stepping = Stepping::adaptive,
@@ -137,7 +137,7 @@ struct IdaBdf {
   static constexpr SchemeInfo info{
       .name = "ida-bdf",
       .family = "sundials",
-      .summary = "IDA, BDF of order 1 to 5 with variable step on the stabilised DAE form",
+      .summary = "IDA, BDF of order 1 to 5 with variable step on the implicit form, constraints stabilised",
       .citation = "A.C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363-396; SUNDIALS IDA",
       .form = "dae",
       .stepping = Stepping::adaptive,

@@ -108,6 +108,30 @@ TEST_CASE("sundials: the solvers agree on supported beams", "[sundials][planar_b
   check_agreement(load_scene(catalogue, "slender-pendulum", {0.02, {}}), false);
 }
 
+TEST_CASE("sundials: samples at a jump are the limits from the left", "[sundials][planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene scene = load_scene(catalogue, "robot-arm", {6.0, {}});
+  const auto& arm = typed<planar_beam::PlanarBeam<1>>(scene);
+  for (const SchemeInfo& solver : schemes(catalogue, Stepping::adaptive, *scene.model)) {
+    INFO(solver.name);
+    RunSpec spec;
+    spec.t_end = scene.t_end;
+    spec.tol = 1e-5;
+    spec.samples = 6;
+    const RunResult result = run_scheme(catalogue, solver.name, *scene.model, spec);
+    REQUIRE(result.status == Status::ok);
+    REQUIRE(result.sample_times == std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0});
+    // At rest at 0; turning at its rate until 5, though it has jumped to it at 0 and stops there.
+    for (double value : result.samples[0]) CHECK(value == 0.0);
+    for (std::size_t k = 1; k < 7; ++k) {
+      const auto state = arm.restore(result.samples[k]);
+      CHECK(std::abs(state.u[2] + 0.3 * std::min<double>(static_cast<double>(k), 5.0)) <= 1e-4);
+      CHECK(std::abs(state.v[2] + (k <= 5 ? 0.3 : 0.0)) <= 1e-4);
+      CHECK(std::abs(state.u[0]) + std::abs(state.u[1]) <= 1e-4);
+    }
+  }
+}
+
 TEST_CASE("sundials: the solvers agree on an arm across the jump of its motion", "[sundials][planar_beam]") {
   const Catalogue catalogue = full_catalogue();
   for (double t_end : {5.0, 9.0}) check_agreement(load_scene(catalogue, "robot-arm", {t_end, {}}), false);

@@ -36,6 +36,42 @@ TEST_CASE("sundials: IDA starts anew where an algebraic variable jumps", "[sundi
   }
 }
 
+TEST_CASE("sundials: IDA goes on with values that jump themselves", "[sundials]") {
+  // A ball that falls with unit acceleration from rest at height 1/2 and is hit at t = 0 and t = 1: y' = v,
+  // v' = -1, v grows by `hit` each time, 0 = p - 2 v. What is seen at 0 is the state before the hit.
+  for (double hit : {0.0, 3.0}) {
+    TestDae system;
+    system.initial = {0.5, 0.0, 0.0};
+    system.is_algebraic = {0, 0, 1};
+    system.break_times = {1.0};
+    system.F = [](double, const double* y, const double* rate, double* value) {
+      value[0] = rate[0] - y[1];
+      value[1] = rate[1] + 1.0;
+      value[2] = y[2] - 2.0 * y[1];
+    };
+    system.dF = [](double, double cj, const double*, double* dense) {
+      dense[0] = dense[4] = cj, dense[3] = -1.0, dense[5] = -2.0, dense[8] = 1.0;
+    };
+    system.go_on = [hit](double, double* y, double* rate) {
+      y[1] += hit;
+      y[2] = 2.0 * y[1];
+      rate[0] = y[1], rate[1] = -1.0, rate[2] = -2.0;
+    };
+    RunSpec spec = tolerance(2.0, 1e-8);
+    spec.samples = 2;
+    const RunResult result = run_dae(system, spec);
+    INFO(result.message);
+    REQUIRE(result.status == Status::ok);
+    CHECK(result.samples[0] == system.initial);
+    const std::vector<double> left{0.5 + hit - 0.5, hit - 1.0, 2.0 * hit - 2.0};
+    const std::vector<double> end{0.5 + 3.0 * hit - 2.0, 2.0 * hit - 2.0, 4.0 * hit - 4.0};
+    for (int k = 0; k < 3; ++k) {
+      CHECK(std::abs(result.samples[1][k] - left[k]) <= 1e-6);
+      CHECK(std::abs(result.state[k] - end[k]) <= 1e-6);
+    }
+  }
+}
+
 TEST_CASE("sundials: IDA starts anew where a rate jumps far", "[sundials]") {
   // y'' = g - y from (1, 0), g = 0 before t = 1 and `size` after.
   const double size = 1e9;
