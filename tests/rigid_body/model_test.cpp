@@ -231,7 +231,7 @@ TEST_CASE("rigid body: states survive flattening, packing and unpacking", "[rigi
       CHECK(same_bits(flat, model.flatten(model.restore(flat))));
       CHECK(flat[1] == state.attitude(1, 0));
       if (k == 0) continue;
-      double y[8], rate[8];
+      double y[8];
       model.ode().pack(0.0, state, y);
       CHECK(y[0] >= 0.0);
       const BodyState unpacked = model.ode().unpack(0.0, y);
