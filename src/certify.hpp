@@ -38,7 +38,8 @@ struct CertifyOptions {
   int stages = 8;                                            ///< of B; its order is twice as much; at least 2
   long first_steps = 0;  ///< steps over the whole time of the first run of B; 0: from the steps of A
   long steps_ratio = 2;  ///< then: steps of A to those of the first run of B
-  Real target = 0;       ///< doubling ends at this scaled distance between B fine and B coarse
+  Real target = 0;       ///< doubling ends at this scaled distance between B fine and B coarse; what is below
+                         ///< it counts as agreement
   long max_evaluations = 100'000'000;  ///< for each of A tight, A loose and all runs of B together
 };
 
@@ -290,7 +291,7 @@ Certified<Real> certify(FA& f_a, FB& f_b, const CertifyProblem<Real>& problem,
   if (d.methods < infinity) {
     if (d.methods > 100 * (d.tolerances + d.steps) + 1000 * eps)
       complain("the two methods converge to different solutions, " + number(d.methods) + " apart");
-    else if (d.methods > result.loose_distance && d.methods > 64 * eps)
+    else if (d.methods > result.loose_distance && d.methods > std::max<Real>(64 * eps, options.target))
       complain("a tighter tolerance does not bring extrapolation nearer to collocation");
   }
   result.converged = settled && result.message.empty();

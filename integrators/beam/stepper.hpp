@@ -132,10 +132,8 @@ class Stepper {
         }
     }
     for (int i : model.held()) internal_[i] = inertia_[i] = external_[i] = 0.0;
-    residual_ = inertia_ + internal_ - external_;
     ++evaluations;
-    scale_ = std::max({norm(inertia_), norm(internal_), norm(external_)});
-    return norm(residual_);
+    return take_residual();
   }
 
   /// The consistent tangent at the mean velocity that was evaluated last, with the inertia term
@@ -219,14 +217,24 @@ class Stepper {
       v[end.unknown] = rate - 0.5 * (end.motion.rate_before(t) - end.motion.rate_after(time_));
     }
   }
-  double norm(const Vector& force) const {
-    double places = 0.0, rotations = 0.0;
-    const int n = static_cast<int>(force.size());
-    for (int i = 0; i < n; i += 3) {
-      places += force[i] * force[i] + force[i + 1] * force[i + 1];
-      rotations += force[i + 2] * force[i + 2];
-    }
-    return std::sqrt(places + rotations / (length_ * length_));
+  /// Sets the residual and the scale by which it is measured, the largest norm of its three parts; returns
+  /// its norm.
+  double take_residual() {
+    const double arm = 1.0 / (length_ * length_);
+    double inertia = 0.0, internal = 0.0, external = 0.0, total = 0.0;
+    const int n = static_cast<int>(residual_.size());
+    for (int i = 0; i < n; i += 3)
+      for (int k = 0; k < 3; ++k) {
+        const double weight = k == 2 ? arm : 1.0;
+        const double x = inertia_[i + k], y = internal_[i + k], z = external_[i + k], r = x + y - z;
+        residual_[i + k] = r;
+        inertia += weight * x * x;
+        internal += weight * y * y;
+        external += weight * z * z;
+        total += weight * r * r;
+      }
+    scale_ = std::sqrt(std::max({inertia, internal, external}));
+    return std::sqrt(total);
   }
   double floor() const { return force_floor_ + inertia_floor_; }
   double threshold() const { return std::max(tolerance_ * scale_, floor()); }
@@ -301,7 +309,7 @@ class Stepper {
   /// One more correction by the tangent at hand, unless the residual is far below what is asked or at
   /// roundoff: what is left of it is lost from the invariants in each step.
   bool polish(const M& model, double h, double size) {
-    if (size <= std::max(1e-2 * tolerance_ * scale_, floor())) return true;
+    if (size <= std::max(3e-2 * tolerance_ * scale_, floor())) return true;
     trial_ = mean;
     correct();
     mean += correction_;
