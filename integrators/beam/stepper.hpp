@@ -309,7 +309,7 @@ class Stepper {
   /// One more correction by the tangent at hand, unless the residual is far below what is asked or at
   /// roundoff: what is left of it is lost from the invariants in each step.
   bool polish(const M& model, double h, double size) {
-    if (size <= std::max(3e-2 * tolerance_ * scale_, floor())) return true;
+    if (size <= std::max(1e-2 * tolerance_ * scale_, floor())) return true;
     trial_ = mean;
     correct();
     mean += correction_;

@@ -111,7 +111,7 @@ TEST_CASE("sundials: the solvers agree on supported beams", "[sundials][planar_b
 TEST_CASE("sundials: samples at a jump are the limits from the left", "[sundials][planar_beam]") {
   const Catalogue catalogue = full_catalogue();
   const Scene scene = load_scene(catalogue, "robot-arm", {6.0, {}});
-  const auto& arm = typed<planar_beam::PlanarBeam<1>>(scene);
+  const auto& arm = typed<planar_beam::PlanarBeam<2>>(scene);
   for (const SchemeInfo& solver : schemes(catalogue, Stepping::adaptive, *scene.model)) {
     INFO(solver.name);
     RunSpec spec;
