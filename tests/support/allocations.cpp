@@ -21,20 +21,13 @@
 #define GNOMON_TEST_OWN_MALLOC 0
 #endif
 
-namespace gnomon::test {
+namespace {
 
 constinit thread_local bool counting = false;
 constinit thread_local long allocations = 0;
-const bool counts_malloc = GNOMON_TEST_OWN_MALLOC != 0;
-
-}  // namespace gnomon::test
-
-namespace {
-
-using gnomon::test::counting;
 
 void note() {
-  if (counting) ++gnomon::test::allocations;
+  if (counting) ++allocations;
 }
 
 void* allocate(std::size_t size, std::size_t alignment) {
@@ -57,6 +50,21 @@ void* checked(void* memory) {
 [[gnu::noinline]] void release(void* memory) { std::free(memory); }
 
 }  // namespace
+
+namespace gnomon::test {
+
+const bool counts_malloc = GNOMON_TEST_OWN_MALLOC != 0;
+
+void start_counting() {
+  allocations = 0;
+  counting = true;
+}
+long stop_counting() {
+  counting = false;
+  return allocations;
+}
+
+}  // namespace gnomon::test
 
 // All forms of new and delete, because one form's memory may be given to another's delete.
 void* operator new(std::size_t size) { return checked(allocate(size, 1)); }

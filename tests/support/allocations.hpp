@@ -2,19 +2,18 @@
 
 namespace gnomon::test {
 
-extern constinit thread_local bool counting;
-extern constinit thread_local long allocations;
+/// Not inlined: a compiler may take malloc for a function that changes no variable of the program.
+void start_counting();
+long stop_counting();
 /// Whether calls of malloc are counted, too: not under the address sanitizer, nor with other C libraries.
 extern const bool counts_malloc;
 
 /// Number of allocations of this thread while `body` runs.
 template <class Body>
 long allocations_of(Body&& body) {
-  allocations = 0;
-  counting = true;
+  start_counting();
   body();
-  counting = false;
-  return allocations;
+  return stop_counting();
 }
 
 }  // namespace gnomon::test
