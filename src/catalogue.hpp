@@ -63,6 +63,12 @@ struct Yardstick {
   double (*run)(const void* model, double t_end, double tol, std::vector<double>& state, long& evaluations);
 };
 
+/// An adaptive integrator that references of stiff motions are made with, and its tolerances.
+struct ReferenceSolver {
+  std::string_view integrator;
+  double tight, loose;
+};
+
 template <class... T>
 struct TypeList {};
 
@@ -74,7 +80,8 @@ struct Catalogue {
   std::vector<Pair> pairs;
   std::vector<Library> libraries;
   std::vector<Yardstick> yardsticks;
-  std::vector<std::string> study_files;  ///< what `bench` does with each model
+  std::vector<ReferenceSolver> reference_solvers;  ///< independent of one another
+  std::vector<std::string> study_files;            ///< what `bench` does with each model
   /// Number of model types of a model, to tell whether a scheme runs all of them.
   int variants(std::string_view model) const;
 

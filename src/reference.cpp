@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // Raised whenever the way references are computed changes.
-constexpr int format_version = 4;
+constexpr int format_version = 5;
 
 std::string key_text(const Scene& scene, const std::vector<double>& times) {
   std::string text = fmt::format("gnomon reference {} {}", format_version, scene.physics_hash());
@@ -57,16 +57,24 @@ bool read(const std::string& path, const std::string& key, ReferenceStates& refe
 
 }  // namespace
 
-const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector<double>& times) {
+const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector<double>& times,
+                                           const Fallback& fallback) {
   const std::string key = key_text(scene, times);
   if (const auto known = memory_.find(key); known != memory_.end()) return known->second;
+  const auto make = [&] {
+    ReferenceStates own = scene.model->reference(times);
+    if (!own.kind.empty() || !fallback) return own;
+    ReferenceStates other = fallback();
+    if (other.kind.empty()) other.message = fmt::format("{}; {}", own.message, other.message);
+    return other;
+  };
   ReferenceStates reference;
   if (scene.model->has_exact() || folder_.empty()) {
-    reference = scene.model->reference(times);
+    reference = make();
   } else {
     const std::string path = fmt::format("{}/{}.json", folder_, hash_text(key));
     if (!read(path, key, reference)) {
-      reference = scene.model->reference(times);
+      reference = make();
       try {
         output::write_file_atomically(path, to_json(scene, reference, key).dump(1) + "\n");
       } catch (const std::runtime_error&) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,8 +16,11 @@ class ReferenceStore {
  public:
   /// An empty folder name keeps nothing.
   explicit ReferenceStore(std::string folder) : folder_(std::move(folder)) {}
+  /// Makes a reference where the model's own methods give none.
+  using Fallback = std::function<ReferenceStates()>;
   /// States at ascending times. Kept in memory too.
-  const ReferenceStates& get(const Scene& scene, const std::vector<double>& times);
+  const ReferenceStates& get(const Scene& scene, const std::vector<double>& times,
+                             const Fallback& fallback = {});
 
  private:
   std::string folder_;

@@ -13,6 +13,8 @@ void add_sundials_schemes(Catalogue& catalogue) {
   using Schemes = TypeList<CvodeAdams, CvodeBdf, ArkodeErk4, ArkodeErk5, ArkodeErk8, ArkodeDirk, IdaBdf,
                            IdaBdfConstraints, IdaBdfIndex2>;
   add_schemes<Models>(catalogue, Schemes{});
+  catalogue.reference_solvers.push_back({CvodeBdf::info.name, 1e-11, 1e-10});
+  catalogue.reference_solvers.push_back({ArkodeDirk::info.name, 1e-9, 1e-8});
   const std::string suitesparse =
       fmt::format("{}.{}.{}", SUITESPARSE_MAIN_VERSION, SUITESPARSE_SUB_VERSION, SUITESPARSE_SUBSUB_VERSION);
   catalogue.libraries.push_back({"sundials", SUNDIALS_VERSION, optimised(), build_record()});

@@ -8,6 +8,7 @@
 
 #include "src/error.hpp"
 #include "src/nearest.hpp"
+#include "src/solver_reference.hpp"
 
 namespace gnomon {
 
@@ -37,7 +38,7 @@ ReferenceStates Runner::reference(const Scene& scene, const StudyOptions& option
     none.message = "not asked for";
     return none;
   }
-  return references_.get(scene, {scene.t_end});
+  return references_.get(scene, {scene.t_end}, [&] { return solver_reference(catalogue_, scene); });
 }
 
 Row Runner::run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,

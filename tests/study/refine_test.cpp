@@ -1,5 +1,7 @@
 #include "src/study/refine.hpp"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <cmath>
 #include <sstream>
