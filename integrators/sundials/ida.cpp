@@ -1,3 +1,8 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
 #include "integrators/sundials/index.hpp"
 #include "integrators/sundials/schemes.hpp"
 #include "integrators/sundials/session.hpp"
@@ -33,7 +38,10 @@ class Ida final : public Session {
           "to 0, so IDA's error test does not control what the algebraic variables do";
       return Status::solver_failed;
     }
-    if (behind_break_) go_on();
+    if (behind_break_ && !go_on()) {
+      message_ = fmt::format("IDA at t = {:.6g} s: the values just behind it are not finite", t_);
+      return Status::solver_failed;
+    }
     if (stop_ != t_stop) IDASetStopTime(memory_, stop_ = t_stop);
     IDASetMaxNumSteps(memory_, call_limit(steps()));
     const int flag =
@@ -66,10 +74,15 @@ class Ida final : public Session {
 
  private:
   /// Until the first step behind a break, or behind the start, y is the limit from the left.
-  void go_on() {
-    behind_break_ = false;
-    system_.resume(t_, N_VGetArrayPointer(y_.get()), N_VGetArrayPointer(rate_.get()));
+  bool go_on() {
+    std::vector<double> y(this->y(), this->y() + size_), rate(y.size());
+    system_.resume(t_, y.data(), rate.data());
+    if (!all_finite(y) || !all_finite(rate)) return false;
+    std::copy(y.begin(), y.end(), N_VGetArrayPointer(y_.get()));
+    std::copy(rate.begin(), rate.end(), N_VGetArrayPointer(rate_.get()));
     check(IDAReInit(memory_, t_, y_.get(), rate_.get()), "IDAReInit");
+    behind_break_ = false;
+    return true;
   }
   long steps() const {
     long steps = 0;

@@ -2,6 +2,7 @@
 
 #include <klu.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -75,6 +76,9 @@ bool index_exceeds_one(const DaeSystem& system) {
   for (std::size_t j = 0; j < n; ++j)
     for (long k = pattern.column_start[j]; k < pattern.column_start[j + 1]; ++k)
       values[k] = scales[j] * (differential[pattern.row[k]] ? values[k] : by_y[k]);
+  // Values that are not finite say nothing of the index; the integration ends with them as its reason.
+  for (double value : values)
+    if (!std::isfinite(value)) return false;
   return !equilibrate(pattern, values) || is_singular(pattern, values);
 }
 

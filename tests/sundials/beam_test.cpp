@@ -111,7 +111,11 @@ TEST_CASE("sundials: the solvers agree on supported beams", "[sundials][planar_b
 TEST_CASE("sundials: samples at a jump are the limits from the left", "[sundials][planar_beam]") {
   const Catalogue catalogue = full_catalogue();
   const Scene scene = load_scene(catalogue, "robot-arm", {6.0, {}});
-  const auto& arm = typed<planar_beam::PlanarBeam<2>>(scene);
+  const auto values = [&](const std::vector<double>& state, std::string_view name) {
+    for (const Named& named : scene.model->observe(state))
+      if (named.name == name) return named.values;
+    throw std::logic_error("no such values");
+  };
   for (const SchemeInfo& solver : schemes(catalogue, Stepping::adaptive, *scene.model)) {
     INFO(solver.name);
     RunSpec spec;
@@ -122,12 +126,13 @@ TEST_CASE("sundials: samples at a jump are the limits from the left", "[sundials
     REQUIRE(result.status == Status::ok);
     REQUIRE(result.sample_times == std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0});
     // At rest at 0; turning at its rate until 5, though it has jumped to it at 0 and stops there.
-    for (double value : result.samples[0]) CHECK(value == 0.0);
+    for (const char* name : {"u", "v"})
+      for (double value : values(result.samples[0], name)) CHECK(value == 0.0);
     for (std::size_t k = 1; k < 7; ++k) {
-      const auto state = arm.restore(result.samples[k]);
-      CHECK(std::abs(state.u[2] + 0.3 * std::min<double>(static_cast<double>(k), 5.0)) <= 1e-4);
-      CHECK(std::abs(state.v[2] + (k <= 5 ? 0.3 : 0.0)) <= 1e-4);
-      CHECK(std::abs(state.u[0]) + std::abs(state.u[1]) <= 1e-4);
+      const std::vector<double> u = values(result.samples[k], "u"), v = values(result.samples[k], "v");
+      CHECK(std::abs(u[2] + 0.3 * std::min(static_cast<double>(k), 5.0)) <= 1e-4);
+      CHECK(std::abs(v[2] + (k <= 5 ? 0.3 : 0.0)) <= 1e-4);
+      CHECK(std::abs(u[0]) + std::abs(u[1]) <= 1e-4);
     }
   }
 }
