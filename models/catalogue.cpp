@@ -13,6 +13,7 @@ void add_models(Catalogue& catalogue) {
   catalogue.study_files.push_back(root + "rigid_body/study.toml");
   catalogue.models.push_back(planar_beam::entry);
   catalogue.scene_folders.push_back(root + "planar_beam/scenes");
+  catalogue.study_files.push_back(root + "planar_beam/study.toml");
   catalogue.yardsticks.push_back(rigid_body::plain_cvode_yardstick);
   add_model_types(catalogue, Models{});
 }

@@ -82,7 +82,7 @@ class Study {
     StudyOptions options;
     options.quick = request_.quick;
 
-    const std::vector<Scene> converging = scenes(study.converge);
+    const std::vector<Scene> converging = scenes(request_.quick ? study.quick_converge : study.converge);
     std::size_t runs = 0;
     StudyOptions fixed = options;
     for (const Scene& scene : converging) runs += converge_runs(context_.catalogue, scene, fixed);
@@ -162,9 +162,12 @@ class Study {
     if (runner_.stopped()) return false;
     Document document(context_.catalogue, "bench");
     document.json()["speed"] = speed_json(study);
-    output::Table wrapper = wrapper_table(study);
-    wrapper.notes.push_back(sundials_line(context_.catalogue));
-    write_study(folder_, model + "-speed", {step_times_table(study), wrapper}, document, std::nullopt, "");
+    std::vector<output::Table> tables{step_times_table(study)};
+    if (!study.wrappers.empty()) {
+      tables.push_back(wrapper_table(study));
+      tables.back().notes.push_back(sundials_line(context_.catalogue));
+    }
+    write_study(folder_, model + "-speed", tables, document, std::nullopt, "");
     return true;
   }
 

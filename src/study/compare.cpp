@@ -39,6 +39,30 @@ CostRow cost_of(const Comparison& study, const SchemeInfo& scheme) {
   return cost;
 }
 
+/// Sought at twenty levels a decade.
+std::vector<Cheapest> cheapest_of(const Comparison& study) {
+  std::vector<Cheapest> list;
+  std::vector<std::vector<WorkPoint>> curves(study.costs.size());
+  for (std::size_t s = 0; s < curves.size(); ++s)
+    for (const Row& row : study.rows)
+      if (row.scheme == study.costs[s].scheme && row.timing)
+        curves[s].push_back({row.error.empty() ? std::nan("") : row.error[0], row.timing->median});
+  for (int k = 20; k <= 240; ++k) {
+    const double level = std::pow(10.0, -0.05 * k);
+    const SchemeInfo* best = nullptr;
+    double least = 0.0;
+    for (std::size_t s = 0; s < curves.size(); ++s)
+      if (const auto cost = cost_at(curves[s], level); cost && (!best || *cost < least)) {
+        best = study.costs[s].scheme;
+        least = *cost;
+      }
+    if (!best) break;
+    if (list.empty() || list.back().scheme != best) list.push_back({best, level, level});
+    list.back().to = level;
+  }
+  return list;
+}
+
 }  // namespace
 
 std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
@@ -69,6 +93,7 @@ Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, out
   }
   study.interrupted = runner.stopped();
   for (const SchemeInfo* scheme : schemes) study.costs.push_back(cost_of(study, *scheme));
+  study.cheapest = cheapest_of(study);
   return study;
 }
 

@@ -13,9 +13,16 @@ struct CostRow {
   std::vector<std::optional<double>> evaluations;  ///< one a level
 };
 
+/// The scheme that reaches every error from `from` down to `to` in the least CPU time.
+struct Cheapest {
+  const SchemeInfo* scheme;
+  double from, to;
+};
+
 struct Comparison : SceneStudy {
   std::vector<double> levels;  ///< errors in the unit of the first metric
   std::vector<CostRow> costs;
+  std::vector<Cheapest> cheapest;  ///< from 0.1 of the first metric's unit down; where it changes they cross
 };
 
 /// Error against cost, a ladder of steps or tolerances for each scheme, timed interleaved.

@@ -158,7 +158,8 @@ Table orders_table(const Convergence& study) {
 Table costs_table(const Comparison& study) {
   Table table;
   const MetricInfo metric = study.scene.model->metrics()[0];
-  table.caption = fmt::format("CPU microseconds (rate evaluations) to reach an {} error [{}], {}",
+  table.caption = fmt::format("CPU microseconds (rate evaluations) to reach {} {} error [{}], {}",
+                              std::string_view("aeiou").find(metric.name.front()) < 5 ? "an" : "a",
                               metric.name, metric.unit, study.scene.name);
   table.columns = {{"integrator", "integrator", Align::left}};
   for (double level : study.levels) {
@@ -174,6 +175,13 @@ Table costs_table(const Comparison& study) {
     table.rows.push_back(std::move(cells));
   }
   table.notes.push_back(reference_line(study));
+  if (!study.cheapest.empty()) {
+    std::string text = "cheapest in CPU time, from an error of 0.1 down:";
+    for (const Cheapest& each : study.cheapest)
+      text += fmt::format("{} {} to {:.1e} {}", &each == &study.cheapest.front() ? "" : ",",
+                          each.scheme->name, each.to, metric.unit);
+    table.notes.push_back(text);
+  }
   table.notes.push_back(
       "a setting counts only if it and all tighter ones reach the level; between settings log-log");
   return table;

@@ -9,7 +9,9 @@ namespace gnomon {
 
 output::Table order_matrix(const std::vector<Convergence>& studies) {
   output::Table table;
-  table.caption = "Observed order of the orientation error";
+  if (!studies.empty())
+    table.caption =
+        fmt::format("Observed order of the {} error", studies.front().scene.model->metrics()[0].name);
   table.columns = {{"scene", "scene", output::Align::left}, {"load", "load", output::Align::left}};
   std::vector<const SchemeInfo*> schemes;
   for (const Convergence& study : studies)

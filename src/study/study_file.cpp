@@ -24,9 +24,11 @@ StudyPlan read_study(const std::string& path) {
   };
   StudyPlan plan;
   plan.converge = root.texts("converge", "names of scenes");
+  plan.quick_converge = root.texts("quick_converge", "names of scenes");
   plan.compare = root.texts("compare", "names of scenes");
   plan.quick_compare = root.texts("quick_compare", "names of scenes");
   each("drift", [&](Section& section) {
+    section.only({"scene", "t_end", "quick_t_end", "step", "tol", "integrators"});
     DriftPlan drift;
     drift.scene = section.text("scene", "a scene's name");
     drift.t_end = section.positive("t_end", "a positive number (s)");
@@ -38,6 +40,7 @@ StudyPlan read_study(const std::string& path) {
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](Section& section) {
+    section.only({"scene", "step", "steps", "parts", "newton_tol", "set"});
     SpeedPlan speed{section.text("scene", "a scene's name"),
                     section.positive("step", "a positive number (s)")};
     if (section.has("steps")) speed.steps = section.integer("steps", 1, 100'000'000, "a number of steps");

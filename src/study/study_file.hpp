@@ -25,7 +25,7 @@ struct SpeedPlan {
 
 /// What `bench` does with one model, read from its study.toml.
 struct StudyPlan {
-  std::vector<std::string> converge, compare, quick_compare;
+  std::vector<std::string> converge, quick_converge, compare, quick_compare;
   std::vector<DriftPlan> drift;
   std::vector<SpeedPlan> speed;
 };

@@ -63,7 +63,7 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {{"converge", "s.toml", "space-moment", "--refine", "beam.elements=4,8"},
        "--refine: found 2 scenes, expected one"},
       {{"converge", "s.toml", "--refine", "t_end=1,2"},
-       "--refine: found scene 's' of model rigid_body, expected a model with a mesh"},
+       "--refine: found scene 'a' of model rigid_body, expected a model with a mesh"},
       {run_of("s.toml", {"--smaples", "3"}), "run: found the unknown option '--smaples', expected --samples"},
       {run_of("s.toml", {"-x"}),
        "run: found the unknown option '-x', expected one of --integrator, --step, --tol, --t-end, --set, "
