@@ -113,7 +113,7 @@ output::Table step_times_table(const SpeedStudy& study) {
                           output::number_cell(scale * time.run.max),
                           output::count_cell(time.run.repetitions)});
     if (parts) {
-      table.rows.back().push_back(output::number_cell(time.parts, 6));
+      table.rows.back().push_back(output::count_cell(std::llround(time.parts)));
       table.rows.back().push_back(output::number_cell(time.ns() / time.parts, 3));
     }
   }
