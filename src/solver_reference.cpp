@@ -7,7 +7,7 @@
 namespace gnomon {
 
 ReferenceStates solver_reference(const Catalogue& catalogue, const Scene& scene, double time_limit) {
-  ReferenceStates reference;
+  ReferenceStates reference, none;
   const AnyModel& model = *scene.model;
   const double deadline = wall_seconds() + time_limit;
   std::vector<double> bound(model.metrics().size(), 0.0);
@@ -18,8 +18,8 @@ ReferenceStates solver_reference(const Catalogue& catalogue, const Scene& scene,
   for (const ReferenceSolver& solver : catalogue.reference_solvers) {
     const Pair* pair = catalogue.pair(solver.integrator, model);
     if (!pair) {
-      reference.message = fmt::format("{} does not run on the model", solver.integrator);
-      return reference;
+      none.message = fmt::format("{} does not run on the model", solver.integrator);
+      return none;
     }
     std::vector<double> states[2];
     for (int k = 0; k < 2; ++k) {
@@ -30,9 +30,8 @@ ReferenceStates solver_reference(const Catalogue& catalogue, const Scene& scene,
       spec.time_limit = std::max(0.1, deadline - wall_seconds());
       const RunResult result = pair->run(model.get(), spec);
       if (result.status != Status::ok) {
-        reference.message =
-            fmt::format("{}, tolerance {:g}: {}", solver.integrator, *spec.tol, result.message);
-        return reference;
+        none.message = fmt::format("{}, tolerance {:g}: {}", solver.integrator, *spec.tol, result.message);
+        return none;
       }
       states[k] = result.state;
     }
@@ -42,7 +41,7 @@ ReferenceStates solver_reference(const Catalogue& catalogue, const Scene& scene,
     reference.methods.push_back(
         fmt::format("{}, tolerances {:g} and {:g}", solver.integrator, solver.tight, solver.loose));
   }
-  if (reference.states.empty()) return reference;
+  if (reference.states.empty()) return none;
   reference.kind = "certified";
   reference.times = {scene.t_end};
   reference.bounds = {bound};
