@@ -26,7 +26,7 @@ std::vector<std::string> commands_of_readme() {
 
 }  // namespace
 
-TEST_CASE("cli: the README's examples work as printed", "[cli]") {
+TEST_CASE("cli: the README's examples work as printed", "[cli][long]") {
   namespace fs = std::filesystem;
   const std::vector<std::string> commands = commands_of_readme();
   REQUIRE(commands.size() >= 6);

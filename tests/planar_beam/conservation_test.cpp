@@ -62,7 +62,7 @@ TEST_CASE("beam schemes: energy over ten thousand steps", "[planar_beam]") {
   CHECK(std::abs(std::log2(fine / finest) - 2.0) <= 0.3);
 }
 
-TEST_CASE("beam schemes: the flying beams keep energy and momenta with large steps", "[planar_beam]") {
+TEST_CASE("beam schemes: the flying beams keep energy and momenta with large steps", "[planar_beam][long]") {
   for (double EI : {500.0, 100.0}) {
     const PlanarBeam<3> model(flying_beam(10, EI));
     for (double h : {0.05, 0.25, 0.5}) {

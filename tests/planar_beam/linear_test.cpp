@@ -34,7 +34,7 @@ double tip(const char* scheme, int elements, double t) {
 
 }  // namespace
 
-TEST_CASE("planar beam: an axial wave runs to the support and back", "[planar_beam]") {
+TEST_CASE("planar beam: an axial wave runs to the support and back", "[planar_beam][long]") {
   for (const char* scheme : {"beam-midpoint", "beam-energy-momentum"}) {
     // Up to 2 L/c = 0.2 s and down again, on straight lines.
     CHECK(std::abs(tip<2>(scheme, 40, 0.1) - 0.5) <= 2e-3);
