@@ -38,7 +38,7 @@ std::string refusal(const RefinePlan& plan, const StudyOptions& options) {
 
 }  // namespace
 
-TEST_CASE("refine: the displacement of a smooth motion converges with order p + 1", "[study]") {
+TEST_CASE("refine: the displacement of a smooth motion converges with order p + 1", "[study][long]") {
   StudyOptions options;
   options.watch = 1;
   for (int p : {1, 2}) {
