@@ -61,11 +61,14 @@ const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector
                                            const Fallback& fallback) {
   const std::string key = key_text(scene, times);
   if (const auto known = memory_.find(key); known != memory_.end()) return known->second;
+  // What a time limit or an interruption ended may be had another time.
+  bool settled = true;
   const auto make = [&] {
     ReferenceStates own = scene.model->reference(times);
     if (!own.kind.empty() || !fallback) return own;
     ReferenceStates other = fallback();
-    if (other.kind.empty()) other.message = fmt::format("{}; {}", own.message, other.message);
+    settled = !other.kind.empty();
+    if (!settled) other.message = fmt::format("{}; {}", own.message, other.message);
     return other;
   };
   ReferenceStates reference;
@@ -76,7 +79,7 @@ const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector
     if (!read(path, key, reference)) {
       reference = make();
       try {
-        output::write_file_atomically(path, to_json(scene, reference, key).dump(1) + "\n");
+        if (settled) output::write_file_atomically(path, to_json(scene, reference, key).dump(1) + "\n");
       } catch (const std::runtime_error&) {
         // A cache that cannot be written costs time, not correctness.
       }

@@ -6,7 +6,8 @@
 
 namespace gnomon {
 
-ReferenceStates solver_reference(const Catalogue& catalogue, const Scene& scene, double time_limit) {
+ReferenceStates solver_reference(const Catalogue& catalogue, const Scene& scene, double time_limit,
+                                 const std::atomic<bool>* stop) {
   ReferenceStates reference, none;
   const AnyModel& model = *scene.model;
   const double deadline = wall_seconds() + time_limit;
@@ -27,6 +28,7 @@ ReferenceStates solver_reference(const Catalogue& catalogue, const Scene& scene,
       spec.t_end = scene.t_end;
       spec.tol = k == 0 ? solver.loose : solver.tight;
       spec.record = false;
+      spec.stop = stop;
       spec.time_limit = std::max(0.1, deadline - wall_seconds());
       const RunResult result = pair->run(model.get(), spec);
       if (result.status != Status::ok) {

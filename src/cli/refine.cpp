@@ -41,7 +41,10 @@ int refine(Context& context) {
   output::Progress progress(refine_runs(plan), output::progress_mode(request.quiet), std::cerr);
   const Refinement study = refine(runner, plan, study_options(request), progress);
   progress.finish();
-  if (study.meshes.empty()) return interrupted;
+  if (study.meshes.empty()) {
+    std::cerr << "gnomon: interrupted before the first mesh was done\n";
+    return interrupted;
+  }
 
   Document document(context.catalogue, "converge");
   add_refinement(document, study);

@@ -38,7 +38,8 @@ ReferenceStates Runner::reference(const Scene& scene, const StudyOptions& option
     none.message = "not asked for";
     return none;
   }
-  return references_.get(scene, {scene.t_end}, [&] { return solver_reference(catalogue_, scene); });
+  return references_.get(scene, {scene.t_end},
+                         [&] { return solver_reference(catalogue_, scene, 20.0, &stop_); });
 }
 
 Row Runner::run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
