@@ -37,7 +37,7 @@ struct Option {
   std::variant<Text, Texts, Switch> target;
 };
 
-constexpr Option options[] = {
+constexpr Option every_option[] = {
     {'i', "--integrator", "NAME", "see `gnomon list integrators`", &Request::integrators},
     {'I', "--integrators", "A,B,..", "default: all that run on the scene", &Request::integrators},
     {'H', "--step", "H", "equal steps, s; T/ceil(T/H) is used", &Request::step},
@@ -100,7 +100,7 @@ std::vector<std::string> command_names() {
 std::vector<const Option*> options_of(const Command& command) {
   std::vector<const Option*> list;
   for (const char letter : std::string_view(command.letters))
-    list.push_back(std::ranges::find(options, letter, &Option::letter));
+    list.push_back(std::ranges::find(every_option, letter, &Option::letter));
   return list;
 }
 

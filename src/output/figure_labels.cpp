@@ -8,7 +8,7 @@
 namespace gnomon::output {
 namespace {
 
-constexpr double cell = 3.0;
+constexpr double cell_size = 3.0;
 
 Box text_box(Point centre_left, double width, double height) {
   return {centre_left.x, centre_left.y - 0.5 * height, centre_left.x + width, centre_left.y + 0.5 * height};
@@ -22,13 +22,13 @@ Box grown(const Box& box, double by) {
 
 Occupied::Occupied(const Box& area)
     : area_(area),
-      columns_(static_cast<std::size_t>(std::max(1.0, std::ceil((area.right - area.left) / cell)))),
-      rows_(static_cast<std::size_t>(std::max(1.0, std::ceil((area.top - area.bottom) / cell)))),
+      columns_(static_cast<std::size_t>(std::max(1.0, std::ceil((area.right - area.left) / cell_size)))),
+      rows_(static_cast<std::size_t>(std::max(1.0, std::ceil((area.top - area.bottom) / cell_size)))),
       cells_(columns_ * rows_, false) {}
 
 void Occupied::add_line(Point from, Point to) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const int steps = static_cast<int>(std::ceil(std::min(length, 1e5) / (0.5 * cell))) + 1;
+  const int steps = static_cast<int>(std::ceil(std::min(length, 1e5) / (0.5 * cell_size))) + 1;
   for (int i = 0; i <= steps; ++i) {
     const double s = static_cast<double>(i) / steps;
     const double x = from.x + s * (to.x - from.x);
@@ -43,7 +43,7 @@ void Occupied::add_box(const Box& box) {
     return;
   }
   const auto clamped = [](double value, std::size_t count) {
-    return static_cast<std::size_t>(std::clamp(value / cell, 0.0, static_cast<double>(count - 1)));
+    return static_cast<std::size_t>(std::clamp(value / cell_size, 0.0, static_cast<double>(count - 1)));
   };
   for (std::size_t row = clamped(box.bottom - area_.bottom, rows_);
        row <= clamped(box.top - area_.bottom, rows_); ++row) {
@@ -58,10 +58,11 @@ bool Occupied::is_free(const Box& box) const {
   if (box.left < area_.left || box.bottom < area_.bottom || box.right > area_.right || box.top > area_.top) {
     return false;
   }
-  const auto first_column = static_cast<std::size_t>((box.left - area_.left) / cell);
-  const auto last_column = std::min(columns_ - 1, static_cast<std::size_t>((box.right - area_.left) / cell));
-  const auto first_row = static_cast<std::size_t>((box.bottom - area_.bottom) / cell);
-  const auto last_row = std::min(rows_ - 1, static_cast<std::size_t>((box.top - area_.bottom) / cell));
+  const auto first_column = static_cast<std::size_t>((box.left - area_.left) / cell_size);
+  const auto last_column =
+      std::min(columns_ - 1, static_cast<std::size_t>((box.right - area_.left) / cell_size));
+  const auto first_row = static_cast<std::size_t>((box.bottom - area_.bottom) / cell_size);
+  const auto last_row = std::min(rows_ - 1, static_cast<std::size_t>((box.top - area_.bottom) / cell_size));
   for (std::size_t row = first_row; row <= last_row; ++row) {
     for (std::size_t column = first_column; column <= last_column; ++column) {
       if (cells_[index(column, row)]) return false;
@@ -203,7 +204,7 @@ std::optional<GuidePlace> place_guides(Occupied& occupied, const Box& area, cons
 Point label_on_horizontal(Occupied& occupied, const Box& area, double y, double text_width,
                           double text_height) {
   // More than a cell from the line, which is an obstacle itself.
-  const double offset = 0.5 * text_height + 1.3 * cell;
+  const double offset = 0.5 * text_height + 1.3 * cell_size;
   const double rightmost = area.right - text_width - 8.0;
   Point chosen = {rightmost, y + offset};
   bool found = false;

@@ -16,7 +16,7 @@ std::vector<double> default_tols(bool quick) {
   return tols;
 }
 
-std::vector<Setting> ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
+std::vector<Setting> work_ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
   return settings(scheme, options, step_ladder(scene, options.quick ? 8 : 11, 1.0),
                   default_tols(options.quick));
 }
@@ -68,7 +68,7 @@ std::vector<Cheapest> cheapest_of(const Comparison& study) {
 std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
   std::size_t runs = 0;
   for (const SchemeInfo* scheme : select(catalogue, scene, options))
-    runs += ladder(scene, *scheme, options).size();
+    runs += work_ladder(scene, *scheme, options).size();
   return runs + (options.timing ? 1 : 0);
 }
 
@@ -79,7 +79,7 @@ Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, out
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
   for (const SchemeInfo* scheme : schemes)
-    for (const Setting& setting : ladder(study.scene, *scheme, options)) {
+    for (const Setting& setting : work_ladder(study.scene, *scheme, options)) {
       if (runner.stopped()) {
         study.interrupted = true;
         return study;

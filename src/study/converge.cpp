@@ -11,7 +11,7 @@ std::vector<double> default_tols() {
   return tols;
 }
 
-std::vector<Setting> ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
+std::vector<Setting> order_ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
   return settings(scheme, options, step_ladder(scene, options.quick ? 17 : 21, 0.5), default_tols());
 }
 
@@ -46,7 +46,7 @@ OrderRow observe(const Convergence& study, const SchemeInfo& scheme, std::size_t
 std::size_t converge_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
   std::size_t runs = 0;
   for (const SchemeInfo* scheme : select(catalogue, scene, options))
-    runs += ladder(scene, *scheme, options).size();
+    runs += order_ladder(scene, *scheme, options).size();
   return runs;
 }
 
@@ -56,7 +56,7 @@ Convergence converge(Runner& runner, Scene scene, const StudyOptions& options, o
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
   for (const SchemeInfo* scheme : schemes) {
-    for (const Setting& setting : ladder(study.scene, *scheme, options)) {
+    for (const Setting& setting : order_ladder(study.scene, *scheme, options)) {
       if (runner.stopped()) {
         study.interrupted = true;
         break;

@@ -13,10 +13,10 @@ using gnomon::generic::integrate_extrapolation;
 using gnomon::generic::Status;
 using gnomon::generic::test::distance;
 using gnomon::generic::test::Kepler;
+using gnomon::generic::test::many;
 using gnomon::generic::test::Oscillator;
 using Long = long double;
 
-constexpr long many = 10'000'000;
 const Long tightest = 4 * std::numeric_limits<Long>::epsilon();
 
 }  // namespace

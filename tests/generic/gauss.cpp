@@ -16,10 +16,9 @@ using gnomon::generic::integrate_gauss;
 using gnomon::generic::Status;
 using gnomon::generic::test::distance;
 using gnomon::generic::test::Kepler;
+using gnomon::generic::test::many;
 using gnomon::generic::test::Oscillator;
 using Long = long double;
-
-constexpr long many = 10'000'000;
 
 }  // namespace
 

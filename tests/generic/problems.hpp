@@ -6,6 +6,9 @@
 
 namespace gnomon::generic::test {
 
+/// More evaluations than any test needs.
+constexpr long many = 10'000'000;
+
 /// Planar Kepler problem with unit gravitational parameter, from the pericentre (1, 0) with speed v:
 /// eccentricity v^2 - 1, 0.301 for the default. State (x, y, vx, vy). Every binary format holds the data
 /// exactly.

@@ -11,6 +11,7 @@
 
 #include "src/output/files.hpp"
 #include "tests/catch.hpp"
+#include "tests/output/contains.hpp"
 #include "tests/output/sample_figures.hpp"
 #include "tests/output/temporary_folder.hpp"
 
@@ -19,10 +20,6 @@ using namespace gnomon::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t result = 0;

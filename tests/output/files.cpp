@@ -11,9 +11,11 @@
 #include <string>
 
 #include "tests/catch.hpp"
+#include "tests/output/contains.hpp"
 #include "tests/output/temporary_folder.hpp"
 
 using namespace gnomon::output;
+using namespace gnomon::test;
 using gnomon::test::TemporaryFolder;
 namespace fs = std::filesystem;
 
@@ -27,10 +29,6 @@ std::string failure(const fs::path& path, const std::string& content) {
     return error.what();
   }
   return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 /// Files larger than `bytes` cannot be written while this lives.

@@ -5,16 +5,10 @@
 #include <string>
 
 #include "tests/catch.hpp"
+#include "tests/output/contains.hpp"
 
 using namespace gnomon::output;
-
-namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
+using namespace gnomon::test;
 
 TEST_CASE("output: durations are written for people") {
   CHECK(duration(0.0) == "0 s");

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double eps = 2.220446049250313e-16;
+constexpr double unit_roundoff = 2.220446049250313e-16;
 const double pi = std::acos(-1.0);
 
 class Random {
@@ -140,11 +140,12 @@ TEST_CASE("rigid body: the DAE forms start consistently", "[rigid_body]") {
         form.pack(0.0, state, y);
         form.resume(0.0, y, rate);
         form.residual(0.0, y, rate, value);
-        for (double v : value) CHECK(std::abs(v) <= 4.0 * eps);
+        for (double v : value) CHECK(std::abs(v) <= 4.0 * unit_roundoff);
         CHECK(y[7] == 0.0);
         CHECK(rate[7] == 0.0);
         // The hidden constraint q.q' = 0.
-        CHECK(std::abs(y[0] * rate[0] + y[1] * rate[1] + y[2] * rate[2] + y[3] * rate[3]) <= 8.0 * eps);
+        CHECK(std::abs(y[0] * rate[0] + y[1] * rate[1] + y[2] * rate[2] + y[3] * rate[3]) <=
+              8.0 * unit_roundoff);
         model.ode().rhs(0.0, y, ode_rate);
         CHECK(std::memcmp(ode_rate, rate, sizeof ode_rate) == 0);
         // A multiplier shows in the residual: as mu' where it is stabilised,
@@ -152,7 +153,7 @@ TEST_CASE("rigid body: the DAE forms start consistently", "[rigid_body]") {
         const bool stabilised = form.algebraic()[7] == 0;
         (stabilised ? rate : y)[7] = 1.0;
         form.residual(0.0, y, rate, value);
-        for (int i = 0; i < 4; ++i) CHECK(std::abs(value[i] + y[i]) <= 4.0 * eps);
+        for (int i = 0; i < 4; ++i) CHECK(std::abs(value[i] + y[i]) <= 4.0 * unit_roundoff);
       };
       check(model.dae());
       check(model.dae_index2());
@@ -172,7 +173,8 @@ TEST_CASE("rigid body: rates in double and in long double", "[rigid_body]") {
       std::copy(y, y + 7, wide);
       model.ode().rhs(0.0, y, rate);
       model.extended_rhs(0.0L, wide, wide_rate);
-      for (int i = 0; i < 7; ++i) CHECK(std::abs(static_cast<double>(rate[i] - wide_rate[i])) <= 32.0 * eps);
+      for (int i = 0; i < 7; ++i)
+        CHECK(std::abs(static_cast<double>(rate[i] - wide_rate[i])) <= 32.0 * unit_roundoff);
     }
   });
 }
@@ -190,7 +192,7 @@ TEST_CASE("rigid body: the ODE form has the moment of the attitude form", "[rigi
       // m' = m x w + tau, so A tau is the moment in space: the rate of H = A m.
       const Vector3d tau = Vector3d(rate[4], rate[5], rate[6]) - m.cross(w);
       const Vector3d moment = model.moment(0.0, state.attitude);
-      CHECK((state.attitude * tau - moment).norm() <= 32.0 * eps);
+      CHECK((state.attitude * tau - moment).norm() <= 32.0 * unit_roundoff);
       if (model.load_class() != "none") CHECK(moment.norm() >= 0.01);
       // A' = A hat(w), by a central difference of the quaternion's motion.
       const double step = 1e-5;
@@ -235,10 +237,11 @@ TEST_CASE("rigid body: states survive flattening, packing and unpacking", "[rigi
       model.ode().pack(0.0, state, y);
       CHECK(y[0] >= 0.0);
       const BodyState unpacked = model.ode().unpack(0.0, y);
-      CHECK((unpacked.attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * eps);
+      CHECK((unpacked.attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * unit_roundoff);
       CHECK(unpacked.angular_momentum == state.angular_momentum);
       model.dae().pack(0.0, state, y);
-      CHECK((model.dae().unpack(0.0, y).attitude - state.attitude).cwiseAbs().maxCoeff() <= 4.0 * eps);
+      CHECK((model.dae().unpack(0.0, y).attitude - state.attitude).cwiseAbs().maxCoeff() <=
+            4.0 * unit_roundoff);
     }
   });
 }
@@ -266,9 +269,9 @@ TEST_CASE("rigid body: distances", "[rigid_body]") {
       const Quaterniond turned = q * Quaterniond(AngleAxisd(angle, axis));
       const BodyState a{q.toRotationMatrix(), other}, b{turned.toRotationMatrix(), other};
       // The matrices are rounded.
-      CHECK(std::abs(model.distance(a, b)[0] - angle) <= 8.0 * eps);
-      CHECK(std::abs(model.distance(b, a)[0] - angle) <= 8.0 * eps);
-      CHECK(model.distance(a, a)[0] <= 2.0 * eps);
+      CHECK(std::abs(model.distance(a, b)[0] - angle) <= 8.0 * unit_roundoff);
+      CHECK(std::abs(model.distance(b, a)[0] - angle) <= 8.0 * unit_roundoff);
+      CHECK(model.distance(a, a)[0] <= 2.0 * unit_roundoff);
       CHECK(model.distance(a, b)[1] == 0.0);
     }
   }
@@ -276,10 +279,10 @@ TEST_CASE("rigid body: distances", "[rigid_body]") {
   const double start = model.initial().angular_momentum.norm();
   const BodyState a = model.initial(), small{a.attitude, 0.5 * a.angular_momentum},
                   large{a.attitude, 3.0 * a.angular_momentum};
-  CHECK(std::abs(model.distance(a, small)[1] - 0.5) <= 4.0 * eps);
-  CHECK(std::abs(model.distance(a, large)[1] - 2.0 / 3.0) <= 4.0 * eps);
+  CHECK(std::abs(model.distance(a, small)[1] - 0.5) <= 4.0 * unit_roundoff);
+  CHECK(std::abs(model.distance(a, large)[1] - 2.0 / 3.0) <= 4.0 * unit_roundoff);
   CHECK(std::abs(model.distance({a.attitude, a.angular_momentum + Vector3d(start, 0, 0)}, a)[1] - 1.0) <=
-        4.0 * eps);
+        4.0 * unit_roundoff);
 }
 
 TEST_CASE("rigid body: invariants are constant along the exact motion of every scene", "[rigid_body]") {
@@ -351,7 +354,7 @@ TEST_CASE("rigid body: scales of a body at rest", "[rigid_body]") {
     for (const InvariantInfo& info : model.invariant_info())
       CHECK((std::isfinite(info.scale) && info.scale > 0.0));
     const auto distance = model.distance(model.initial(), model.initial());
-    CHECK(distance[0] <= 2.0 * eps);
+    CHECK(distance[0] <= 2.0 * unit_roundoff);
     CHECK(distance[1] == 0.0);
     BodyState moved = model.initial();
     moved.angular_momentum[0] = 1e-3;

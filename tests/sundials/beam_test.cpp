@@ -13,31 +13,31 @@ using namespace gnomon::test;
 
 namespace {
 
-constexpr double tolerances[] = {1e-3, 1e-4, 1e-5, 1e-6};
-constexpr std::size_t count = std::size(tolerances), tightest = count - 1;
+constexpr double beam_tolerances[] = {1e-3, 1e-4, 1e-5, 1e-6};
+constexpr std::size_t beam_count = std::size(beam_tolerances), tightest_beam = beam_count - 1;
 
-struct Ladder {
-  std::vector<double> state[count];
+struct BeamLadder {
+  std::vector<double> state[beam_count];
   /// Twice the larger of what the last tenfold tightening changed, and half of what the one before did.
   std::vector<double> bound;
 };
 
-Ladder climb(const Catalogue& catalogue, std::string_view scheme, const Scene& scene) {
-  Ladder ladder;
-  for (std::size_t k = 0; k < count; ++k) {
+BeamLadder climb_beam(const Catalogue& catalogue, std::string_view scheme, const Scene& scene) {
+  BeamLadder ladder;
+  for (std::size_t k = 0; k < beam_count; ++k) {
     RunSpec spec;
     spec.t_end = scene.t_end;
-    spec.tol = tolerances[k];
+    spec.tol = beam_tolerances[k];
     spec.record = k == 0;
     const RunResult result = run_scheme(catalogue, scheme, *scene.model, spec);
-    INFO(scheme << " on " << scene.name << ", tolerance " << tolerances[k] << ": " << result.message);
+    INFO(scheme << " on " << scene.name << ", tolerance " << beam_tolerances[k] << ": " << result.message);
     REQUIRE(result.status == Status::ok);
     ladder.state[k] = result.state;
   }
   const auto change = [&](std::size_t k) {
     return scene.model->distance(ladder.state[k], ladder.state[k - 1]);
   };
-  const auto last = change(tightest), before = change(tightest - 1);
+  const auto last = change(tightest_beam), before = change(tightest_beam - 1);
   for (std::size_t m = 0; m < last.size(); ++m)
     ladder.bound.push_back(2.0 * std::max(last[m], 0.5 * before[m]));
   return ladder;
@@ -47,9 +47,9 @@ Ladder climb(const Catalogue& catalogue, std::string_view scheme, const Scene& s
 void check_agreement(const Scene& scene, bool with_reference) {
   const Catalogue catalogue = full_catalogue();
   const StderrCapture capture;
-  std::map<std::string_view, Ladder> ladders;
+  std::map<std::string_view, BeamLadder> ladders;
   for (std::string_view name : {"cvode-bdf", "cvode-adams", "ida-bdf", "ida-bdf-constraints", "arkode-dirk"})
-    if (catalogue.pair(name, *scene.model)) ladders[name] = climb(catalogue, name, scene);
+    if (catalogue.pair(name, *scene.model)) ladders[name] = climb_beam(catalogue, name, scene);
   CHECK(ladders.size() >= 4);
   ReferenceStates reference;
   if (with_reference) {
@@ -59,14 +59,14 @@ void check_agreement(const Scene& scene, bool with_reference) {
   bool apart = false;
   for (const auto& [name, a] : ladders) {
     if (with_reference) {
-      const auto error = scene.model->distance(a.state[tightest], reference.states[0]);
+      const auto error = scene.model->distance(a.state[tightest_beam], reference.states[0]);
       for (std::size_t m = 0; m < error.size(); ++m) {
         INFO(name << " on " << scene.name << ", metric " << m << ": " << error[m] << " of " << a.bound[m]);
         CHECK(error[m] <= a.bound[m] + reference.bounds[0][m]);
       }
     }
     for (const auto& [other, b] : ladders) {
-      const auto tight = scene.model->distance(a.state[tightest], b.state[tightest]);
+      const auto tight = scene.model->distance(a.state[tightest_beam], b.state[tightest_beam]);
       const auto loose = scene.model->distance(a.state[0], b.state[0]);
       for (std::size_t m = 0; m < tight.size(); ++m) {
         INFO(name << " and " << other << " on " << scene.name << ", metric " << m << ": " << tight[m]
