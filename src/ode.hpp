@@ -132,7 +132,14 @@ concept HasIndex2Dae = Model<M> && requires(const M& model) {
   { model.dae_index2() } -> DaeFormOf<M>;
 };
 
-/// A model whose constraints may be kept as equations, in the stabilised form; it says whether it has any.
+/// The same of index 3.
+template <class M>
+concept HasIndex3Dae = Model<M> && requires(const M& model) {
+  { model.dae_index3() } -> DaeFormOf<M>;
+};
+
+/// A model whose constraints may be kept as equations, in the stabilised form; it says whether it has any
+/// that may.
 template <class M>
 concept HasConstraintDae = Model<M> && requires(const M& model) {
   { model.dae_constraints() } -> DaeFormOf<M>;

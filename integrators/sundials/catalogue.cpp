@@ -11,7 +11,7 @@ namespace gnomon {
 void add_sundials_schemes(Catalogue& catalogue) {
   using namespace sundials;
   using Schemes = TypeList<CvodeAdams, CvodeBdf, ArkodeErk4, ArkodeErk5, ArkodeErk8, ArkodeDirk, IdaBdf,
-                           IdaBdfConstraints, IdaBdfIndex2>;
+                           IdaBdfConstraints, IdaBdfIndex2, IdaBdfIndex3>;
   add_schemes<Models>(catalogue, Schemes{});
   catalogue.reference_solvers.push_back({CvodeBdf::info.name, 1e-11, 1e-10});
   catalogue.reference_solvers.push_back({ArkodeDirk::info.name, 1e-9, 1e-8});

@@ -155,7 +155,8 @@ struct IdaBdfConstraints {
   static constexpr SchemeInfo info{
       .name = "ida-bdf-constraints",
       .family = "sundials",
-      .summary = "IDA, BDF of order 1 to 5 with variable step; supports kept as constraints, stabilised",
+      .summary =
+          "IDA, BDF of order 1 to 5 with variable step; pivot or supports kept as constraints, stabilised",
       .citation =
           "C.W. Gear, B. Leimkuhler, G.K. Gupta, J. Comput. Appl. Math. 12-13 (1985) 77-90; SUNDIALS IDA",
       .form = "dae",
@@ -163,7 +164,7 @@ struct IdaBdfConstraints {
   };
   template <HasConstraintDae M>
   static std::string_view refusal(const M& model) {
-    return model.is_constrained() ? "" : "it has no supports";
+    return model.is_constrained() ? "" : "it has no supports that can be kept as constraints";
   }
   template <HasConstraintDae M>
   static std::unique_ptr<DaeSystem> system(const M& model) {
@@ -187,6 +188,29 @@ struct IdaBdfIndex2 {
   template <HasIndex2Dae M>
   static std::unique_ptr<DaeSystem> system(const M& model) {
     return erase_dae(model, model.dae_index2());
+  }
+  static std::unique_ptr<AdaptiveSolver> make(const DaeSystem& system, const RunSpec& spec) {
+    return make_ida(system, spec);
+  }
+};
+
+struct IdaBdfIndex3 {
+  static constexpr SchemeInfo info{
+      .name = "ida-bdf-index3",
+      .family = "sundials",
+      .summary = "negative control: the pivot as a constraint of index 3, which has to end with a reason",
+      .citation = IdaBdf::info.citation,
+      .form = "dae",
+      .stepping = Stepping::adaptive,
+      .control = true,
+  };
+  template <HasIndex3Dae M>
+  static std::string_view refusal(const M& model) {
+    return IdaBdfConstraints::refusal(model);
+  }
+  template <HasIndex3Dae M>
+  static std::unique_ptr<DaeSystem> system(const M& model) {
+    return erase_dae(model, model.dae_index3());
   }
   static std::unique_ptr<AdaptiveSolver> make(const DaeSystem& system, const RunSpec& spec) {
     return make_ida(system, spec);

@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "models/rigid_body/absolute_dae.hpp"
 #include "models/rigid_body/dae.hpp"
 #include "models/rigid_body/exact_free_top.hpp"
 #include "models/rigid_body/load.hpp"
@@ -141,6 +142,18 @@ class RigidBody {
   OdeForm<Load> ode() const { return {inertia_, load_, momentum_scale_}; }
   DaeForm<Load, true> dae() const { return {inertia_, load_, momentum_scale_}; }
   DaeForm<Load, false> dae_index2() const { return {inertia_, load_, momentum_scale_}; }
+  /// In absolute coordinates, with the pivot as a constraint.
+  AbsoluteDaeForm<true> dae_constraints() const requires std::is_same_v<Load, Gravity> {
+    return {inertia_, load_, momentum_scale_};
+  }
+  AbsoluteDaeForm<false> dae_index3() const requires std::is_same_v<Load, Gravity> {
+    return {inertia_, load_, momentum_scale_};
+  }
+  /// Whether there is a body with this inertia about the pivot and this centre of mass.
+  bool is_constrained() const requires std::is_same_v<Load, Gravity> {
+    const Eigen::Matrix3d central = AbsoluteDaeForm<true>::central_inertia(inertia_, load_);
+    return load_.centre.norm() > 0.0 && central.llt().info() == Eigen::Success;
+  }
 
   /// The rates of y = (q, m) and a start in any precision, for references.
   template <class Real>

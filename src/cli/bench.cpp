@@ -12,6 +12,7 @@
 #include "src/study/present.hpp"
 #include "src/study/published.hpp"
 #include "src/study/speed.hpp"
+#include "src/study/survey.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -99,6 +100,11 @@ class Study {
       parts_.push_back({"drift-" + plan.scene, "Drift: " + plan.scene, plan.integrators.size(),
                         [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
     }
+    if (!study.survey.empty())
+      parts_.push_back({model + "-survey", "All schemes of equal steps",
+                        survey_runs(context_.catalogue, study.survey), [=, this](output::Progress& progress) {
+                          return make_survey(model, study.survey, options, progress);
+                        }});
     parts_.push_back({model + "-speed", "Speed", 1, [=, this](output::Progress& progress) {
                         return make_speed(model, study.speed, progress);
                       }});
@@ -153,6 +159,17 @@ class Study {
                 drift_figure(context_.catalogue, study, "energy"),
                 command(fmt::format("drift {} --step {:g} --tol {:g} --t-end {:g}", plan.scene, plan.step,
                                     plan.tol, *changes.t_end)));
+    return true;
+  }
+
+  bool make_survey(const std::string& model, const std::vector<SurveyPlan>& plans,
+                   const StudyOptions& options, output::Progress& progress) {
+    const Survey study = gnomon::survey(runner_, model, plans, options, progress);
+    if (study.interrupted) return false;
+    Document document(context_.catalogue, "bench");
+    document.json()["survey"] = survey_json(study);
+    write_study(folder_, model + "-survey", {survey_cost_table(study), survey_stability_table(study)},
+                document, std::nullopt, command("survey " + model));
     return true;
   }
 

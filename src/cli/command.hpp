@@ -21,7 +21,7 @@ inline constexpr int interrupted = 3;  ///< what was finished is kept
 /// errors.
 struct Request {
   std::vector<std::string> scenes;
-  std::vector<std::string> what;  ///< of `list`
+  std::vector<std::string> what;  ///< of `list` and `survey`
   std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol;
   std::vector<std::string> set;
   std::string refine;  ///< of `converge`
@@ -75,6 +75,7 @@ int converge(Context& context);
 int refine(Context& context);
 int compare(Context& context);
 int drift(Context& context);
+int survey(Context& context);
 int bench(Context& context);
 int doctor(Context& context);
 

@@ -27,6 +27,7 @@ struct Argument {
 };
 
 constexpr Argument scene{"SCENE", "the name of a shipped scene or a .toml file", &Request::scenes};
+constexpr Argument model_name{"MODEL", "a model with a survey; all without it", &Request::what};
 constexpr Argument what{"WHAT", "scenes, models or integrators; all without it", &Request::what};
 
 struct Option {
@@ -87,6 +88,9 @@ constexpr Command commands[] = {
      "gnomon-out"},
     {"drift", "SCENE.. [--integrators A,B,..] [--step H] [--tol X] [--t-end T]", "invariants over a long run",
      &scene, "IHTeaxlnsjcoRMQ", drift},
+    {"survey", "[MODEL..] [--quick]",
+     "all schemes of equal steps of a model: order, cost, invariants, largest step", &model_name, "xljcoRMqQ",
+     survey},
     {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqFQ", bench},
     {"doctor", "", "versions, build flags, is SUNDIALS optimised, timer noise", nullptr, "jQ", doctor},
 };

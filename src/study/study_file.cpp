@@ -7,6 +7,13 @@
 
 namespace gnomon {
 
+std::string SurveyPlan::key() const {
+  std::string key = label;
+  for (char& c : key)
+    if (c == ' ' || c == '-') c = '_';
+  return key;
+}
+
 StudyPlan read_study(const std::string& path) {
   toml::table table;
   try {
@@ -48,6 +55,13 @@ StudyPlan read_study(const std::string& path) {
     if (section.has("newton_tol")) speed.newton_tol = section.positive("newton_tol", "a tolerance");
     speed.set = section.texts("set", "texts key.path=value");
     plan.speed.push_back(std::move(speed));
+  });
+  each("survey", [&](Section& section) {
+    section.only({"label", "scene", "step", "t_end"});
+    plan.survey.push_back({section.text("label", "a name for the class of scenes"),
+                           section.text("scene", "a scene's name"),
+                           section.positive("step", "a positive number (s)"),
+                           section.positive("t_end", "a positive number (s)")});
   });
   root.finish();
   return plan;

@@ -23,11 +23,22 @@ struct SpeedPlan {
   double newton_tol = 1e-10;
 };
 
+/// One class of scenes in the survey of a model.
+struct SurveyPlan {
+  std::string label;  ///< as it stands in the tables
+  std::string scene;
+  double step;   ///< s, of the long run and of the timed one
+  double t_end;  ///< s, of the long run
+  /// The label as a name.
+  std::string key() const;
+};
+
 /// What `bench` does with one model, read from its study.toml.
 struct StudyPlan {
   std::vector<std::string> converge, quick_converge, compare, quick_compare;
   std::vector<DriftPlan> drift;
   std::vector<SpeedPlan> speed;
+  std::vector<SurveyPlan> survey;
 };
 
 /// Throws UsageError if the file does not fit.

@@ -37,6 +37,10 @@ TEST_CASE("study file: what it says is read", "[study]") {
   CHECK(!plan.drift[1].quick_t_end);
   CHECK(plan.drift[0].integrators.front() == "munjiza");
   CHECK(plan.speed.size() >= 4);
+  REQUIRE(plan.survey.size() >= 4);
+  CHECK(plan.survey[1].label == "space moment");
+  CHECK(plan.survey[1].key() == "space_moment");
+  CHECK(plan.survey[0].t_end >= 1e4);
 }
 
 TEST_CASE("study file: what does not fit is refused", "[study]") {

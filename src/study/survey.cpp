@@ -1,0 +1,318 @@
+#include "src/study/survey.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/study/converge.hpp"
+#include "src/study/drift_study.hpp"
+
+namespace gnomon {
+namespace {
+
+std::vector<std::string> surveyed(const Catalogue& catalogue, const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SchemeInfo* scheme : catalogue.schemes_for(*scene.model))
+    if (scheme->stepping == Stepping::fixed) names.emplace_back(scheme->name);
+  return names;
+}
+
+Scene load(const Catalogue& catalogue, const std::string& name, std::optional<double> t_end) {
+  SceneChanges changes;
+  changes.t_end = t_end;
+  return load_scene(catalogue, name, changes);
+}
+
+/// Why a run does not count as one that survived: its status, or an invariant off by a hundredth of its
+/// scale.
+std::string failure_of(const Scene& scene, const RunResult& result) {
+  if (result.status != Status::ok) return std::string(to_string(result.status));
+  for (const InvariantSummary& invariant : summarise_invariants(*scene.model, result.invariants))
+    if (!(invariant.max_drift <= 0.01))
+      return fmt::format("{} off by {:.1g}", invariant.info.name, invariant.max_drift);
+  return "";
+}
+
+/// Steps from a hundredth of the motion's time scale to 16 times it, by factors of 2, over 500 time scales.
+/// The step survives if all smaller ones do.
+Breaking find_breaking(Runner& runner, const std::string& name, const SchemeInfo& scheme) {
+  const double scale = load(runner.catalogue(), name, std::nullopt).model->time_scale();
+  const Scene scene = load(runner.catalogue(), name, 500.0 * scale);
+  StudyOptions options;
+  options.time_limit = 20.0;
+  Breaking breaking;
+  for (int k = -6; k <= 4; ++k) {
+    Setting setting;
+    setting.step = scale * std::pow(2.0, k);
+    const Row row = runner.run(scene, {}, scheme, setting, options);
+    const std::string failure = failure_of(scene, row.result);
+    if (!failure.empty()) {
+      breaking.breaks = setting.step;
+      breaking.how = failure;
+      return breaking;
+    }
+    breaking.survived = *setting.step;
+  }
+  return breaking;
+}
+
+void add_orders(Runner& runner, SurveyClass& of, const StudyOptions& options, output::Progress& progress) {
+  StudyOptions chosen = options;
+  for (const SurveyEntry& entry : of.entries) chosen.integrators.emplace_back(entry.scheme->name);
+  const Convergence study = converge(runner, of.scene, chosen, progress);
+  for (const OrderRow& row : study.orders)
+    for (SurveyEntry& entry : of.entries)
+      if (entry.scheme == row.scheme && row.metric == of.scene.model->metrics()[0].name) {
+        entry.order = row.order;
+        entry.declared = row.expected;
+      }
+}
+
+void add_drift(Runner& runner, SurveyClass& of, const StudyOptions& options, output::Progress& progress) {
+  StudyOptions chosen = options;
+  chosen.steps = {of.plan.step};
+  chosen.reference = false;
+  for (const SurveyEntry& entry : of.entries) chosen.integrators.emplace_back(entry.scheme->name);
+  const DriftStudy study =
+      drift(runner, load(runner.catalogue(), of.plan.scene, of.plan.t_end), chosen, progress);
+  for (const DriftRow& row : study.drifts)
+    for (SurveyEntry& entry : of.entries) {
+      const Row& run = study.rows[row.row];
+      if (entry.scheme != run.scheme) continue;
+      entry.status = run.result.status;
+      entry.cost = run.result.cost;
+      const std::string& name = row.invariant.info.name;
+      if (row.drift.verdict == DriftVerdict::roundoff) entry.held.push_back(name);
+      if (name == "energy") entry.energy = row.drift;
+    }
+}
+
+void add_times(Runner& runner, std::vector<SurveyClass>& classes) {
+  std::vector<TimedTask> tasks;
+  std::vector<SurveyEntry*> timed;
+  for (SurveyClass& of : classes)
+    for (SurveyEntry& entry : of.entries) {
+      constexpr long steps = 20'000;
+      RunSpec spec;
+      spec.step = of.plan.step;
+      spec.t_end = static_cast<double>(steps) * of.plan.step;
+      spec.record = false;
+      const auto run = runner.catalogue().pair(entry.scheme->name, *of.scene.model)->run;
+      tasks.push_back({[run, spec, model = of.scene.model] {
+        const RunResult result = run(model->get(), spec);
+        return result.status == Status::ok ? result.cpu_seconds : std::nan("");
+      }});
+      entry.timed_steps = steps;
+      timed.push_back(&entry);
+    }
+  TimingPlan plan;
+  plan.timer_cost = timer_cost();
+  const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
+  for (std::size_t k = 0; k < stats.size(); ++k) timed[k]->run = stats[k];
+}
+
+/// The schemes of all classes, each once, and its entry in a class if it runs there.
+std::vector<const SchemeInfo*> schemes_of(const Survey& survey) {
+  std::vector<const SchemeInfo*> schemes;
+  for (const SurveyClass& of : survey.classes)
+    for (const SurveyEntry& entry : of.entries)
+      if (std::find(schemes.begin(), schemes.end(), entry.scheme) == schemes.end())
+        schemes.push_back(entry.scheme);
+  return schemes;
+}
+const SurveyEntry* entry_of(const SurveyClass& of, const SchemeInfo* scheme) {
+  for (const SurveyEntry& entry : of.entries)
+    if (entry.scheme == scheme) return &entry;
+  return nullptr;
+}
+
+/// "2.01", and in brackets the declared order where it differs.
+output::Cell order_cell(const SurveyEntry& entry) {
+  if (!entry.order.observed)
+    return entry.declared ? output::Cell(fmt::format("— ({:g})", *entry.declared)) : output::Cell();
+  output::Cell cell = output::number_cell(*entry.order.observed, 3);
+  if (entry.declared && std::abs(*entry.order.observed - *entry.declared) > 0.1)
+    cell.text += fmt::format(" ({:g})", *entry.declared);
+  return cell;
+}
+
+output::Cell per_step(long count, long steps) {
+  return steps > 0 ? output::number_cell(static_cast<double>(count) / static_cast<double>(steps), 3)
+                   : output::Cell();
+}
+
+output::Cell energy_cell(const SurveyEntry& entry) {
+  if (entry.status != Status::ok) return std::string(to_string(entry.status));
+  if (!entry.energy) return {};
+  return fmt::format("{} {:.1e}", to_string(entry.energy->verdict), entry.energy->max_abs);
+}
+
+output::Cell breaking_cell(const SurveyClass& of, const SurveyEntry& entry) {
+  const double scale = of.scene.model->time_scale();
+  if (!entry.breaking.breaks) return fmt::format("> {:.3g}", entry.breaking.survived / scale);
+  return fmt::format("{:.3g}: {}", *entry.breaking.breaks / scale, entry.breaking.how);
+}
+
+}  // namespace
+
+std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans) {
+  std::size_t runs = 0;
+  for (const SurveyPlan& plan : plans) {
+    const Scene scene = load(catalogue, plan.scene, std::nullopt);
+    StudyOptions options;
+    options.integrators = surveyed(catalogue, scene);
+    runs += converge_runs(catalogue, scene, options) + 2 * options.integrators.size();
+  }
+  return runs;
+}
+
+Survey survey(Runner& runner, const std::string& model, const std::vector<SurveyPlan>& plans,
+              const StudyOptions& options, output::Progress& progress) {
+  Survey study;
+  study.model = model;
+  for (const SurveyPlan& plan : plans) {
+    SurveyClass of{plan, load(runner.catalogue(), plan.scene, std::nullopt), {}};
+    if (options.quick) of.plan.t_end = std::min(plan.t_end, 2000.0 * plan.step);
+    for (const std::string& name : surveyed(runner.catalogue(), of.scene)) {
+      SurveyEntry entry{};
+      entry.scheme = runner.catalogue().scheme(name);
+      of.entries.push_back(std::move(entry));
+    }
+    add_orders(runner, of, options, progress);
+    add_drift(runner, of, options, progress);
+    for (SurveyEntry& entry : of.entries) {
+      progress.begin(fmt::format("{} / {}  larger and larger steps", plan.scene, entry.scheme->name));
+      if (!runner.stopped()) entry.breaking = find_breaking(runner, plan.scene, *entry.scheme);
+    }
+    study.classes.push_back(std::move(of));
+    if (runner.stopped()) break;
+  }
+  if (options.timing && !runner.stopped()) add_times(runner, study.classes);
+  study.interrupted = runner.stopped();
+  return study;
+}
+
+output::Table survey_cost_table(const Survey& survey) {
+  output::Table table;
+  table.caption = fmt::format("Order and cost of the schemes of equal steps, {}", survey.model);
+  table.columns = {{"integrator", "integrator", output::Align::left}};
+  for (const SurveyClass& of : survey.classes)
+    table.columns.push_back({"order_" + of.plan.key(), "order, " + of.plan.label});
+  table.columns.push_back({"rates", "rates a step"});
+  table.columns.push_back({"moments", "moments a step"});
+  for (const SurveyClass& of : survey.classes)
+    table.columns.push_back({"ns_" + of.plan.key(), "ns a step, " + of.plan.label});
+  for (const SchemeInfo* scheme : schemes_of(survey)) {
+    std::vector<output::Cell> cells{std::string(scheme->name)};
+    for (const SurveyClass& of : survey.classes) {
+      const SurveyEntry* entry = entry_of(of, scheme);
+      cells.push_back(entry ? order_cell(*entry) : output::Cell());
+    }
+    // The class with the most work counts: a free body evaluates no moments.
+    output::Cell rates, moments;
+    for (const SurveyClass& of : survey.classes)
+      if (const SurveyEntry* entry = entry_of(of, scheme); entry && entry->cost.steps > 0) {
+        rates = per_step(entry->cost.rhs, entry->cost.steps);
+        moments = per_step(entry->cost.moments, entry->cost.steps);
+      }
+    cells.push_back(rates);
+    cells.push_back(moments);
+    for (const SurveyClass& of : survey.classes) {
+      const SurveyEntry* entry = entry_of(of, scheme);
+      output::Cell cell;
+      if (entry && entry->run.repetitions > 0) {
+        cell = output::number_cell(1e9 * entry->run.median / static_cast<double>(entry->timed_steps));
+        if (entry->run.unstable) cell.text += "*";
+      }
+      cells.push_back(cell);
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  std::string scenes;
+  for (const SurveyClass& of : survey.classes)
+    scenes += fmt::format("{}{}: {}", scenes.empty() ? "" : "; ", of.plan.label, of.plan.scene);
+  table.notes = {
+      scenes,
+      "order of the first error class; — no asymptotic range; in brackets the declared order where the "
+      "observed one is more than 0.1 away from it",
+      "evaluations a step on the last class; times: medians of 5 interleaved runs of 20000 steps, one core; "
+      "* repetitions differ by more than 5 %"};
+  return table;
+}
+
+output::Table survey_stability_table(const Survey& survey) {
+  output::Table table;
+  table.caption = fmt::format("What the schemes of equal steps keep and where they break, {}", survey.model);
+  table.columns = {{"integrator", "integrator", output::Align::left}};
+  for (const SurveyClass& of : survey.classes) {
+    table.columns.push_back(
+        {"held_" + of.plan.key(), "held to roundoff, " + of.plan.label, output::Align::left});
+    if (of.entries.front().energy ||
+        std::ranges::any_of(of.entries, [](const auto& e) { return e.energy.has_value(); }))
+      table.columns.push_back({"energy_" + of.plan.key(), "energy, " + of.plan.label, output::Align::left});
+    table.columns.push_back({"breaks_" + of.plan.key(), "breaks at, " + of.plan.label, output::Align::left});
+  }
+  for (const SchemeInfo* scheme : schemes_of(survey)) {
+    std::vector<output::Cell> cells{std::string(scheme->name)};
+    for (const SurveyClass& of : survey.classes) {
+      const SurveyEntry* entry = entry_of(of, scheme);
+      const bool energy = std::ranges::any_of(of.entries, [](const auto& e) { return e.energy.has_value(); });
+      if (!entry) {
+        cells.insert(cells.end(), energy ? 3 : 2, output::Cell());
+        continue;
+      }
+      cells.emplace_back(entry->held.empty() ? std::string("none")
+                                             : fmt::format("{}", fmt::join(entry->held, ", ")));
+      if (energy) cells.push_back(energy_cell(*entry));
+      cells.push_back(breaking_cell(of, *entry));
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  std::string runs;
+  for (const SurveyClass& of : survey.classes)
+    runs += fmt::format("{}{}: step {:g} s to t = {:g} s", runs.empty() ? "" : "; ", of.plan.scene,
+                        of.plan.step, of.plan.t_end);
+  table.notes = {"held and energy: " + runs + "; the energy with its largest drift, relative to its scale",
+                 "breaks at: the first of the steps 2^k times the motion's time scale (the inverse of its "
+                 "largest rate), "
+                 "k = -6 .. 4, that does not end well over 500 time scales or changes an invariant by a "
+                 "hundredth of its scale"};
+  return table;
+}
+
+nlohmann::ordered_json survey_json(const Survey& survey) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto number = [](double value) -> nlohmann::ordered_json {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+  };
+  for (const SurveyClass& of : survey.classes)
+    for (const SurveyEntry& entry : of.entries) {
+      nlohmann::ordered_json item;
+      item["integrator"] = entry.scheme->name;
+      item["class"] = of.plan.label;
+      item["scene"] = of.plan.scene;
+      item["observed_order"] = number(entry.order.observed.value_or(std::nan("")));
+      item["declared_order"] = number(entry.declared.value_or(std::nan("")));
+      item["status"] = to_string(entry.status);
+      item["steps"] = entry.cost.steps;
+      item["rhs"] = entry.cost.rhs;
+      item["moments"] = entry.cost.moments;
+      item["held"] = entry.held;
+      if (entry.energy)
+        item["energy"] = {{"verdict", to_string(entry.energy->verdict)},
+                          {"max_drift", number(entry.energy->max_abs)},
+                          {"slope", number(entry.energy->slope)}};
+      item["largest_step"] = number(entry.breaking.survived);
+      item["breaks_at"] = number(entry.breaking.breaks.value_or(std::nan("")));
+      item["breaks_how"] = entry.breaking.how;
+      item["ns_a_step"] = entry.timed_steps > 0
+                              ? number(1e9 * entry.run.median / static_cast<double>(entry.timed_steps))
+                              : nullptr;
+      list.push_back(std::move(item));
+    }
+  return list;
+}
+
+}  // namespace gnomon
