@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <functional>
@@ -7,6 +8,7 @@
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
 #include "src/environment.hpp"
+#include "src/error.hpp"
 #include "src/output/files.hpp"
 #include "src/study/compare.hpp"
 #include "src/study/present.hpp"
@@ -83,18 +85,32 @@ class Study {
     StudyOptions options;
     options.quick = request_.quick;
 
+    const auto on = [&](const Scene& scene) {
+      StudyOptions chosen = options;
+      for (const std::string& name : study.integrators) {
+        if (!context_.catalogue.scheme(name))
+          throw UsageError(fmt::format("{}: integrators: found the unknown name '{}'", file, name));
+        if (context_.catalogue.pair(name, *scene.model)) chosen.integrators.push_back(name);
+      }
+      return chosen;
+    };
+
     const std::vector<Scene> converging = scenes(request_.quick ? study.quick_converge : study.converge);
     std::size_t runs = 0;
-    StudyOptions fixed = options;
-    for (const Scene& scene : converging) runs += converge_runs(context_.catalogue, scene, fixed);
+    std::vector<StudyOptions> chosen;
+    for (const Scene& scene : converging) {
+      chosen.push_back(on(scene));
+      runs += converge_runs(context_.catalogue, scene, chosen.back());
+    }
     parts_.push_back({model + "-orders", "Order of convergence", runs, [=, this](output::Progress& progress) {
-                        return make_orders(model, converging, fixed, progress);
+                        return make_orders(model, converging, chosen, progress);
                       }});
     for (const Scene& scene : scenes(request_.quick ? study.quick_compare : study.compare))
-      parts_.push_back(
-          {"compare-" + scene.name, "Work and precision: " + scene.name,
-           compare_runs(context_.catalogue, scene, options),
-           [=, this](output::Progress& progress) { return make_comparison(scene, options, progress); }});
+      parts_.push_back({"compare-" + scene.name, "Work and precision: " + scene.name,
+                        compare_runs(context_.catalogue, scene, on(scene)),
+                        [=, this, chosen = on(scene)](output::Progress& progress) {
+                          return make_comparison(scene, chosen, progress);
+                        }});
     for (const DriftPlan& plan : study.drift) {
       if (request_.quick && !plan.quick_t_end) continue;
       parts_.push_back({"drift-" + plan.scene, "Drift: " + plan.scene, plan.integrators.size(),
@@ -110,21 +126,22 @@ class Study {
                       }});
   }
 
-  bool make_orders(const std::string& model, const std::vector<Scene>& scenes, const StudyOptions& options,
-                   output::Progress& progress) {
+  bool make_orders(const std::string& model, const std::vector<Scene>& scenes,
+                   const std::vector<StudyOptions>& options, output::Progress& progress) {
     Document document(context_.catalogue, "bench");
     std::vector<Convergence> studies;
-    for (const Scene& scene : scenes) {
-      studies.push_back(converge(runner_, scene, options, progress));
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+      studies.push_back(converge(runner_, scenes[k], options[k], progress));
       if (studies.back().interrupted) return false;
       document.add(studies.back());
       document.add_orders(studies.back().scene.name, studies.back().orders);
       Document own(context_.catalogue, "bench");
       own.add(studies.back());
       own.add_orders(studies.back().scene.name, studies.back().orders);
-      write_study(folder_, "converge-" + scene.name,
+      write_study(folder_, "converge-" + scenes[k].name,
                   {orders_table(studies.back()), runs_table(studies.back(), "Runs")}, own,
-                  convergence_figure(context_.catalogue, studies.back()), command("converge " + scene.name));
+                  convergence_figure(context_.catalogue, studies.back()),
+                  command("converge " + scenes[k].name, options[k]));
     }
     write_study(folder_, model + "-orders", {order_matrix(studies)}, document, std::nullopt, "");
     return true;
@@ -138,7 +155,7 @@ class Study {
     output::Table costs = costs_table(study);
     costs.notes.push_back(sundials_line(context_.catalogue));
     write_study(folder_, "compare-" + scene.name, {costs, runs_table(study, "Runs")}, document,
-                work_precision_figure(context_.catalogue, study), command("compare " + scene.name));
+                work_precision_figure(context_.catalogue, study), command("compare " + scene.name, options));
     return true;
   }
 
@@ -188,8 +205,9 @@ class Study {
     return true;
   }
 
-  static std::string command(const std::string& arguments) {
-    return fmt::format("`./gnomon {}`\n\n", arguments);
+  static std::string command(const std::string& arguments, const StudyOptions& options = {}) {
+    if (options.integrators.empty()) return fmt::format("`./gnomon {}`\n\n", arguments);
+    return fmt::format("`./gnomon {} --integrators {}`\n\n", arguments, fmt::join(options.integrators, ","));
   }
 
   std::string stamp(const Part& part) const {

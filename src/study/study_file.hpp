@@ -36,6 +36,7 @@ struct SurveyPlan {
 /// What `bench` does with one model, read from its study.toml.
 struct StudyPlan {
   std::vector<std::string> converge, quick_converge, compare, quick_compare;
+  std::vector<std::string> integrators;  ///< that converge and compare show; empty: all
   std::vector<DriftPlan> drift;
   std::vector<SpeedPlan> speed;
   std::vector<SurveyPlan> survey;
