@@ -126,9 +126,10 @@ TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 steps"
         if (!catalogue.pair(info.name, *scene.model)) continue;
         INFO(info.name << " on " << name << ", h = " << h);
         const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(1e5 * h, h));
-        // |A^T H|: the momentum that the scheme stores is constant, so this shows the attitude.
-        CHECK(within(seen.at("momentum_norm").max_drift, 1e-15, 1e-12));
-        CHECK(within(seen.at("angular_momentum").max_drift, 1e-15, 1e-12));
+        // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude.
+        const double low = info.conserves_momentum ? 1e-15 : 1e-9, high = info.conserves_momentum ? 1e-12 : 1.0;
+        CHECK(within(seen.at("momentum_norm").max_drift, low, high));
+        CHECK(within(seen.at("angular_momentum").max_drift, low, high));
         CHECK(within(seen.at("orthonormality").max_drift, 1e-15, 1e-12));
       }
     }
@@ -193,7 +194,8 @@ TEST_CASE("schemes: conservation under gravity", "[rotation][invariants]") {
       if (!catalogue.pair(info.name, *scene.model)) continue;
       const double order = info.order_for("gravity").value();
       double coarser = 0.0;
-      for (double h : {0.0125, 0.00625, 0.003125}) {
+      for (double fraction : {1.0, 0.5, 0.25}) {
+        const double h = (order > 3.0 ? 0.05 : 0.0125) * fraction;
         const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(scene.t_end, h));
         const double energy = seen.at("energy").max_drift;
         INFO(info.name << " on " << name << ", h = " << h << ", energy " << energy);
@@ -201,9 +203,9 @@ TEST_CASE("schemes: conservation under gravity", "[rotation][invariants]") {
         if (coarser > 0.0) CHECK(std::abs(std::log2(coarser / energy) - order) <= 0.1);
         coarser = energy;
         // The moment of the weight is horizontal at every stage, so the vertical momentum is kept.
-        CHECK(seen.at("vertical_momentum").max_drift <= 1e-13);
+        CHECK((seen.at("vertical_momentum").max_drift <= 1e-13) == info.conserves_momentum);
         CHECK(seen.at("orthonormality").max_drift <= 1e-13);
-        if (seen.count("kovalevskaya")) CHECK(seen.at("kovalevskaya").max_drift >= 1e-13);
+        if (seen.count("kovalevskaya")) CHECK(seen.at("kovalevskaya").max_drift >= 1e-14);
       }
       CHECK(coarser >= 1e-13);
     }
@@ -218,7 +220,7 @@ TEST_CASE("schemes: the impulse of a moment fixed in space is kept", "[rotation]
       if (!catalogue.pair(info.name, *scene.model)) continue;
       INFO(info.name << " on " << name);
       const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(scene.t_end, 0.01));
-      CHECK(seen.at("momentum_balance").max_drift <= 5e-13);
+      CHECK((seen.at("momentum_balance").max_drift <= 5e-13) == info.conserves_momentum);
     }
   }
   // Seen against a model that is told another moment.
