@@ -1,5 +1,6 @@
 #include "integrators/catalogue.hpp"
 #include "integrators/rotation/exact_free_top.hpp"
+#include "integrators/rotation/exact_heavy_symmetric_top.hpp"
 #include "integrators/rotation/families.hpp"
 #include "models/catalogue.hpp"
 
@@ -12,7 +13,7 @@ void add_rotation_schemes(Catalogue& catalogue) {
   add_moser_veselov_schemes(catalogue);
   add_second_order_schemes(catalogue);
   add_explicit_schemes(catalogue);
-  add_schemes<Models>(catalogue, TypeList<ExactFreeTop>{});
+  add_schemes<Models>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});
 }
 
 }  // namespace gnomon
