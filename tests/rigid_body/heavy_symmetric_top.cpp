@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/certify.hpp"
+#include "src/study/study.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/scenes.hpp"
 
