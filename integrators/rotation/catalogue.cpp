@@ -10,7 +10,10 @@ void add_rotation_schemes(Catalogue& catalogue) {
   using namespace rotation;
   add_schemes<Models>(catalogue, MunjizaSchemes{});
   add_splitting_schemes(catalogue);
+  add_high_splitting_schemes(catalogue);
   add_moser_veselov_schemes(catalogue);
+  add_moser_veselov_splittings(catalogue);
+  add_high_moser_veselov_splittings(catalogue);
   add_second_order_schemes(catalogue);
   add_explicit_schemes(catalogue);
   add_schemes<Models>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});

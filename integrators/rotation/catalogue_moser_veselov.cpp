@@ -3,6 +3,8 @@
 
 namespace gnomon::rotation {
 
-void add_moser_veselov_schemes(Catalogue& catalogue) { add_schemes<Models>(catalogue, MoserVeselovSchemes{}); }
+void add_moser_veselov_schemes(Catalogue& catalogue) {
+  add_schemes<Models>(catalogue, MoserVeselovSchemes{});
+}
 
 }  // namespace gnomon::rotation

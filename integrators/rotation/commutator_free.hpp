@@ -10,8 +10,7 @@ struct CommutatorFree4 : ExplicitLie<4, 4> {
       .name = "cf4",
       .family = "rotation",
       .summary = "commutator-free Lie group method of order 4",
-      .citation =
-          "E. Celledoni, A. Marthinsen, B. Owren, Future Gener. Comput. Syst. 19 (2003) 341-352",
+      .citation = "E. Celledoni, A. Marthinsen, B. Owren, Future Gener. Comput. Syst. 19 (2003) 341-352",
       .form = "rotation",
       .stages = 4,
       .orders = {{{"none", 4}, {"gravity", 4}, {"space_moment", 4}, {"body_moment", 4}}},

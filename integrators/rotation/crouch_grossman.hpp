@@ -28,8 +28,7 @@ struct CrouchGrossman3 : ExplicitLie<3, 3> {
     const Quaternion q2 = exponential(a21 * h * k1.velocity);
     const auto k2 = rates(model, pose, t + a21 * h, q2, H + a21 * h * k1.moment);
     const Quaternion q3 = exponential(a31 * h * k1.velocity) * exponential(a32 * h * k2.velocity);
-    const auto k3 =
-        rates(model, pose, t + (a31 + a32) * h, q3, H + h * (a31 * k1.moment + a32 * k2.moment));
+    const auto k3 = rates(model, pose, t + (a31 + a32) * h, q3, H + h * (a31 * k1.moment + a32 * k2.moment));
     const Quaternion by = exponential(b1 * h * k1.velocity) * exponential(b2 * h * k2.velocity) *
                           exponential(b3 * h * k3.velocity);
     pose.momentum += h * (b1 * k1.moment + b2 * k2.moment + b3 * k3.moment);

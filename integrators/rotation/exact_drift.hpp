@@ -94,9 +94,14 @@ class ExactDrift {
 
     const int a = L >= N ? 0 : 2;
     const double sign = std::copysign(1.0, m[a]);
-    const double deficit = a == 0 ? m[2] * m[2] * g_[1] - m[1] * m[1] * g_[2]
-                                  : m[1] * m[1] * g_[0] - m[0] * m[0] * g_[1];
-    const Quaternion before = to_axis(m, a, sign, size);
+    const double deficit =
+        a == 0 ? m[2] * m[2] * g_[1] - m[1] * m[1] * g_[2] : m[1] * m[1] * g_[0] - m[0] * m[0] * g_[1];
+    const Vector3 start = m;
+    Vector3 change = Vector3::Zero();  // of m
+    const auto advance = [&](double S) {
+      change += change_of(m, S, L, N);
+      m = start + change;
+    };
     const Sine sine((L + N) * half * half, (L * half * half) * (N * half * half));
     constexpr double nodes[3] = {0.2386191860831969086, 0.6612093864662645137, 0.9324695142031520278};
     constexpr double weights[3] = {0.4679139345726910474, 0.3607615730481386076, 0.1713244923791703450};
@@ -104,7 +109,7 @@ class ExactDrift {
     const double at_node[3] = {half * sine(nodes[0]), half * sine(nodes[1]), half * sine(nodes[2])};
     double sum = 0.0;  // of 1/(|m| + |m_a|) over the nodes
     for (double piece = 0.0; piece < pieces; piece += 1.0) {
-      m = moved(m, whole, L, N);
+      advance(whole);
       // The nodes lie in pairs about the middle, at which S differs in its sign alone.
       for (int k = 0; k < 3; ++k) {
         const double S = at_node[k], S2 = S * S;
@@ -114,12 +119,20 @@ class ExactDrift {
         const double odd = g_[a] * m[1] * m[2 - a] * S * (a == 0 ? c : d);
         sum += weights[k] * 2.0 * D * even / (even * even - odd * odd);
       }
-      m = moved(m, whole, L, N);
+      advance(whole);
     }
     const double psi = tau * size / inertia_[a] - deficit * half * sum;
-    Quaternion about(std::cos(0.5 * psi), 0.0, 0.0, 0.0);
-    about.vec()[a] = sign * std::sin(0.5 * psi);
-    const Quaternion ordered = (before.conjugate() * about * to_axis(m, a, sign, size)).normalized();
+    // conj(P) R (P + dP) = |P|^2 + conj(P) (dP + (R - 1)(P + dP)): what a short step turns is a sum of small
+    // terms, with rounding errors as small.
+    const Quaternion before = to_axis(start, a, sign, size), after = to_axis(m, a, sign, size);
+    Quaternion about;  // R - 1
+    about.w() = -2.0 * std::sin(0.25 * psi) * std::sin(0.25 * psi);
+    about.vec() = sign * std::sin(0.5 * psi) * Vector3::Unit(a);
+    Quaternion small = about * after;
+    small.coeffs() += to_axis(change, a, sign, 0.0).coeffs();
+    Quaternion ordered = before.conjugate() * small;
+    ordered.w() += before.squaredNorm();
+    ordered.normalize();
     by.w() = ordered.w();
     by.vec()[axes_[0]] = ordered.x();
     by.vec()[axes_[1]] = ordered.y();
@@ -127,15 +140,18 @@ class ExactDrift {
     return Status::ok;
   }
 
-  Vector3 moved(const Vector3& m, double S, double L, double N) const {
+  /// m(t) - m of the class comment.
+  Vector3 change_of(const Vector3& m, double S, double L, double N) const {
     const double S2 = S * S, c = std::sqrt(1.0 - L * S2), d = std::sqrt(1.0 - N * S2);
-    const double D = 1.0 - g_[0] * g_[2] * m[1] * m[1] * S2;
-    return Vector3(m[0] * d + g_[0] * m[1] * m[2] * S * c, m[1] * c * d + g_[1] * m[2] * m[0] * S,
-                   m[2] * c + g_[2] * m[0] * m[1] * S * d) /
+    const double e = g_[0] * g_[2] * m[1] * m[1] * S2, D = 1.0 - e;
+    const double c1 = -L * S2 / (1.0 + c), d1 = -N * S2 / (1.0 + d);  // c - 1, d - 1
+    return Vector3(m[0] * (d1 + e) + g_[0] * m[1] * m[2] * S * c,
+                   m[1] * (c1 * d + d1 + e) + g_[1] * m[2] * m[0] * S,
+                   m[2] * (c1 + e) + g_[2] * m[0] * m[1] * S * d) /
            D;
   }
 
-  /// The shortest rotation of m to sign |m| e_a, not normalised.
+  /// The shortest rotation of m to sign |m| e_a, not normalised; linear in m and its size.
   static Quaternion to_axis(const Vector3& m, int a, double sign, double size) {
     Quaternion p;
     p.w() = size + sign * m[a];

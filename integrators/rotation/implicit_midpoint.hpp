@@ -4,9 +4,9 @@
 
 namespace gnomon::rotation {
 
-/// m' - m = h a x I^-1 a with a = (m + m')/2, the turn being the Cayley map of h I^-1 a. With c = (h/2) I^-1 a
-/// it is I c + c x (I c) = (h/2) m. The moment acts by half kicks.
-struct ImplicitMidpoint : Kicked<CayleyFlow<CayleyTerms{false, false}>, Strang> {
+/// m' - m = h a x I^-1 a with a = (m + m')/2, the turn being the Cayley map of h I^-1 a. With c = (h/2) I^-1
+/// a it is I c + c x (I c) = (h/2) m. The moment acts by half kicks.
+struct ImplicitMidpoint : Kicked<CayleyFlow<CayleyTerms{false, false}>, strang> {
   static constexpr SchemeInfo info{
       .name = "implicit-midpoint",
       .family = "rotation",

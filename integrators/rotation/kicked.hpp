@@ -2,6 +2,7 @@
 #include <array>
 
 #include "integrators/rotation/pose.hpp"
+#include "integrators/rotation/splittings.hpp"
 
 namespace gnomon::rotation {
 
@@ -15,25 +16,20 @@ concept FreeFlow = requires(F& flow, const Vector3& m, double tau, Quaternion& b
   { F::exact } -> std::convertible_to<bool>;
 };
 
-/// Kicks of the moment at the ends and between maps of the free body, all by fractions of the step: kick,
-/// drift, kick, .., kick. The moment at the end of a step is the one at the start of the next.
-struct Strang {
-  static constexpr std::array<double, 2> kicks{0.5, 0.5};
-  static constexpr std::array<double, 1> drifts{1.0};
-};
-
 template <FreeFlow Flow>
 struct KickedState {
   Pose pose;
-  Vector3 moment;  // in space, at the present time
+  Vector3 moment;  // in space; of a splitting that ends with a kick, at the present time
   Flow flow;
 };
 
-/// H += k h M(t, A) and maps of the free body in turn. Without a moment nothing is split: a step is one map.
-/// H changes by kicks alone, so it is kept as long as there are none.
-template <FreeFlow Flow, class Splitting>
+/// Kicks H += k h M(t, A) and maps of the free body in turn, by the fractions of `splitting`. The moment of
+/// the last kick of a step is that of the first kick of the next. Without a moment nothing is split where the
+/// map is exact: a step is one map. H changes by kicks alone, so it is kept as long as there are none.
+template <FreeFlow Flow, const auto& splitting>
 struct Kicked {
-  static constexpr int drifts = static_cast<int>(Splitting::drifts.size());
+  static constexpr int drifts = static_cast<int>(splitting.drifts.size());
+  static constexpr bool drift_first = splitting.drift_first;
   template <RotationForm M>
   using State = KickedState<Flow>;
 
@@ -41,7 +37,8 @@ struct Kicked {
   template <RotationForm M>
   static KickedState<Flow> start(const M& model, const typename M::State& state) {
     const Pose pose = pose_of<M>(state);
-    return {pose, model.moment(0.0, pose.attitude), Flow(model.inertia())};
+    return {pose, drift_first ? Vector3::Zero() : Vector3(model.moment(0.0, pose.attitude)),
+            Flow(model.inertia())};
   }
   template <RotationForm M>
   static typename M::State view(const M&, const KickedState<Flow>& state) {
@@ -54,25 +51,29 @@ struct Kicked {
     cost.newton_iterations = state.flow.iterations();
     // An implicit map takes its equation, and in it the velocity, once an iteration.
     cost.rhs = Flow::exact ? (M::has_moment ? drifts : 1) * steps : cost.newton_iterations;
-    if constexpr (M::has_moment) cost.moments = drifts * steps + 1;
+    if constexpr (M::has_moment) cost.moments = drift_first ? (drifts - 1) * steps : drifts * steps + 1;
     return cost;
   }
 
   template <RotationForm M>
-  static Status step(const M& model, KickedState<Flow>& state, double t, double h) {
-    static_assert(Flow::exact || drifts == 1);
-    if constexpr (!M::has_moment) {
+  [[gnu::noinline]] static Status step(const M& model, KickedState<Flow>& state, double t, double h) {
+    if constexpr (!M::has_moment && Flow::exact) {
       return drift(state, h);
     } else {
+      const double* kick = splitting.kicks.data();
       double passed = 0.0;
-      for (std::size_t k = 0; k < Splitting::drifts.size(); ++k) {
-        state.pose.momentum += Splitting::kicks[k] * h * state.moment;
-        const Status status = drift(state, Splitting::drifts[k] * h);
+      if constexpr (M::has_moment && !drift_first) state.pose.momentum += *kick++ * h * state.moment;
+      for (int k = 0; k < drifts; ++k) {
+        const double fraction = splitting.drifts[static_cast<std::size_t>(k)];
+        const Status status = drift(state, fraction * h);
         if (status != Status::ok) return status;
-        passed += Splitting::drifts[k];
-        state.moment = model.moment(t + passed * h, state.pose.attitude);
+        if constexpr (M::has_moment) {
+          if (drift_first && k + 1 == drifts) break;
+          passed += fraction;
+          state.moment = model.moment(t + passed * h, state.pose.attitude);
+          state.pose.momentum += *kick++ * h * state.moment;
+        }
       }
-      state.pose.momentum += Splitting::kicks.back() * h * state.moment;
       return Status::ok;
     }
   }

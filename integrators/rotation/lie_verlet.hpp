@@ -7,7 +7,7 @@ namespace gnomon::rotation {
 /// m = u - (h/2) u x w + (h^2/4)(w.u) w with u = I w, the turn cay(h w), and the momentum after it from
 /// u + (h/2) u x w + (h^2/4)(w.u) w, which is the same momentum in space. With c = (h/2) w the first equation
 /// is I c + c x (I c) + (c.I c) c = (h/2) m. The half kicks are part of the method.
-struct LieVerlet : Kicked<CayleyFlow<CayleyTerms{true, false}>, Strang> {
+struct LieVerlet : Kicked<CayleyFlow<CayleyTerms{true, false}>, strang> {
   static constexpr SchemeInfo info{
       .name = "lie-verlet",
       .family = "rotation",

@@ -4,8 +4,8 @@
 
 namespace gnomon::rotation {
 
-/// Two midpoint Lie steps of half the time: th = (h/2) I^-1 exp(-th/2) m, then the turn by the rotation vector
-/// th. Each equation is solved by Newton's method to rounding.
+/// Two midpoint Lie steps of half the time: th = (h/2) I^-1 exp(-th/2) m, then the turn by the rotation
+/// vector th. Each equation is solved by Newton's method to rounding.
 class MidpointLieFlow {
  public:
   static constexpr bool exact = false;
@@ -49,7 +49,7 @@ class MidpointLieFlow {
   long iterations_ = 0;
 };
 
-struct LiemidEa : Kicked<MidpointLieFlow, Strang> {
+struct LiemidEa : Kicked<MidpointLieFlow, strang> {
   static constexpr SchemeInfo info{
       .name = "liemid-ea",
       .family = "rotation",

@@ -7,16 +7,17 @@
 
 namespace gnomon::rotation {
 
-/// Modified moments J that raise the order of the discrete Moser-Veselov equations: 1/J_i = sigma/I_i + delta,
-/// sigma and delta polynomials in N = h^2 |m|^2/2 and H = h^2 m.(I^-1 m)/2. E. Hairer, G. Vilmart, J. Phys. A
-/// 39 (2006) 13225-13235; the terms of degree 3 and 4 are those of its authors' program DMV10.
+/// Modified moments J that raise the order of the discrete Moser-Veselov equations: 1/J_i = sigma/I_i +
+/// delta, sigma and delta polynomials in N = h^2 |m|^2/2 and H = h^2 m.(I^-1 m)/2. E. Hairer, G. Vilmart, J.
+/// Phys. A 39 (2006) 13225-13235; the terms of degree 3 and 4 are those of its authors' program DMV10.
 template <int order>
 class Preprocessing {
  public:
   static_assert(order >= 2 && order <= 10 && order % 2 == 0);
   static constexpr int degree = order / 2 - 1;
 
-  explicit Preprocessing(const Vector3& inertia) : scale_(inertia.mean()), inverse_(scale_ * inertia.cwiseInverse()) {
+  explicit Preprocessing(const Vector3& inertia)
+      : scale_(inertia.mean()), inverse_(scale_ * inertia.cwiseInverse()) {
     const Vector3 I = inertia / scale_;
     const double d = I.prod(), d2 = d * d, d3 = d2 * d, d4 = d2 * d2;
     const auto s = [&](int k) { return std::pow(I[0], k) + std::pow(I[1], k) + std::pow(I[2], k); };
@@ -120,25 +121,25 @@ constexpr SchemeInfo moser_veselov_info(std::string_view name, std::string_view 
   };
 }
 
-struct Dmv2 : Kicked<MoserVeselovFlow<2>, Strang> {
+struct Dmv2 : Kicked<MoserVeselovFlow<2>, strang> {
   static constexpr SchemeInfo info =
       moser_veselov_info("dmv2", "discrete Moser-Veselov equations, half kicks", 2);
 };
-struct Dmv4 : Kicked<MoserVeselovFlow<4>, Strang> {
+struct Dmv4 : Kicked<MoserVeselovFlow<4>, strang> {
   static constexpr SchemeInfo info =
       moser_veselov_info("dmv4", "discrete Moser-Veselov equations, preprocessed to order 4, half kicks", 4);
 };
-struct Dmv6 : Kicked<MoserVeselovFlow<6>, Strang> {
+struct Dmv6 : Kicked<MoserVeselovFlow<6>, strang> {
   static constexpr SchemeInfo info =
       moser_veselov_info("dmv6", "discrete Moser-Veselov equations, preprocessed to order 6, half kicks", 6);
 };
-struct Dmv8 : Kicked<MoserVeselovFlow<8>, Strang> {
+struct Dmv8 : Kicked<MoserVeselovFlow<8>, strang> {
   static constexpr SchemeInfo info =
       moser_veselov_info("dmv8", "discrete Moser-Veselov equations, preprocessed to order 8, half kicks", 8);
 };
-struct Dmv10 : Kicked<MoserVeselovFlow<10>, Strang> {
-  static constexpr SchemeInfo info =
-      moser_veselov_info("dmv10", "discrete Moser-Veselov equations, preprocessed to order 10, half kicks", 10);
+struct Dmv10 : Kicked<MoserVeselovFlow<10>, strang> {
+  static constexpr SchemeInfo info = moser_veselov_info(
+      "dmv10", "discrete Moser-Veselov equations, preprocessed to order 10, half kicks", 10);
 };
 
 }  // namespace gnomon::rotation

@@ -27,7 +27,10 @@ template <class Body>
 void for_each_scheme(Body&& body) {
   for_each(rotation::MunjizaSchemes{}, body);
   for_each(rotation::SplittingSchemes{}, body);
+  for_each(rotation::HighSplittingSchemes{}, body);
   for_each(rotation::MoserVeselovSchemes{}, body);
+  for_each(rotation::MoserVeselovSplittings{}, body);
+  for_each(rotation::HighMoserVeselovSplittings{}, body);
   for_each(rotation::SecondOrderSchemes{}, body);
   for_each(rotation::ExplicitSchemes{}, body);
 }

@@ -43,9 +43,9 @@ std::vector<Body> bodies() {
   std::mt19937_64 generator(11);
   const auto uniform = [&] { return 2.0 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1.0; };
   std::vector<Body> list;
-  for (Vector3 I : {Vector3(0.6, 0.8, 1.0), Vector3(1.0, 1.0, 3.0), Vector3(1.0, 3.0, 3.0), Vector3(2.0, 2.0, 2.0),
-                    Vector3(1.0, 1.0 + 1e-9, 2.0), Vector3(1.0, 2.0 - 1e-9, 2.0), Vector3(1.0, 1.001, 50.0),
-                    Vector3(1e-3, 2.0, 2.1)}) {
+  for (Vector3 I : {Vector3(0.6, 0.8, 1.0), Vector3(1.0, 1.0, 3.0), Vector3(1.0, 3.0, 3.0),
+                    Vector3(2.0, 2.0, 2.0), Vector3(1.0, 1.0 + 1e-9, 2.0), Vector3(1.0, 2.0 - 1e-9, 2.0),
+                    Vector3(1.0, 1.001, 50.0), Vector3(1e-3, 2.0, 2.1)}) {
     std::sort(I.data(), I.data() + 3);
     do {
       for (int k = 0; k < 6; ++k) list.push_back({I, Vector3(uniform(), uniform(), uniform())});
@@ -114,24 +114,42 @@ TEST_CASE("schemes: the exact drift over long steps and short ones", "[rotation]
   CHECK(drift.turn(m * std::numeric_limits<double>::quiet_NaN(), 0.1, by) == Status::diverged);
 }
 
-TEST_CASE("schemes: coefficients of the compositions", "[rotation][exact_drift]") {
-  const auto sums_to_one = [](const auto& coefficients) {
-    double sum = 0.0;
-    for (double c : coefficients) sum += c;
-    return std::abs(sum - 1.0) <= 4.0 * eps;
+TEST_CASE("schemes: coefficients of the splittings", "[rotation][splitting]") {
+  const auto check = [](std::string_view name, const auto& splitting) {
+    INFO(name);
+    const auto sum_and_symmetry = [](const auto& fractions) {
+      double sum = 0.0;
+      for (double c : fractions) sum += c;
+      CHECK(std::abs(sum - 1.0) <= 4.0 * eps);
+      CHECK(std::equal(fractions.begin(), fractions.end(), fractions.rbegin()));
+    };
+    sum_and_symmetry(splitting.kicks);
+    sum_and_symmetry(splitting.drifts);
   };
-  CHECK(sums_to_one(rotation::Yoshida4::kicks));
-  CHECK(sums_to_one(rotation::Yoshida4::drifts));
-  CHECK(sums_to_one(rotation::Suzuki4::kicks));
-  CHECK(sums_to_one(rotation::Suzuki4::drifts));
-  CHECK(sums_to_one(rotation::BlanesMoan4::kicks));
-  CHECK(sums_to_one(rotation::BlanesMoan4::drifts));
-  // Order 4 of a symmetric composition of Strang steps: the cubes add to 0.
-  const auto cubes = [](const auto& coefficients) {
+  check("strang", rotation::strang);
+  check("yoshida4", rotation::yoshida4);
+  check("suzuki4", rotation::suzuki4);
+  check("blanes-moan4", rotation::blanes_moan4);
+  check("blanes-moan-rkn4", rotation::blanes_moan_rkn4);
+  check("blanes-moan-rkn6", rotation::blanes_moan_rkn6);
+  check("kahan-li6", rotation::kahan_li6);
+  check("mclachlan8", rotation::mclachlan8);
+  check("kahan-li8", rotation::kahan_li8);
+
+  // Order conditions of symmetric compositions of Strang steps: the sums of the odd powers are 0.
+  const auto powers = [](const auto& splitting, int power) {
     double sum = 0.0;
-    for (double c : coefficients) sum += c * c * c;
+    for (double c : splitting.drifts) sum += std::pow(c, power);
     return std::abs(sum);
   };
-  CHECK(cubes(rotation::Yoshida4::drifts) <= 32.0 * eps);
-  CHECK(cubes(rotation::Suzuki4::drifts) <= 4.0 * eps);
+  for (int p : {3, 5, 7}) {
+    INFO("power " << p);
+    if (p < 5) CHECK(powers(rotation::yoshida4, p) <= 32.0 * eps);
+    if (p < 5) CHECK(powers(rotation::suzuki4, p) <= 8.0 * eps);
+    if (p < 7) CHECK(powers(rotation::kahan_li6, p) <= 8.0 * eps);
+    CHECK(powers(rotation::mclachlan8, p) <= 8.0 * eps);
+    CHECK(powers(rotation::kahan_li8, p) <= 8.0 * eps);
+  }
+  CHECK(powers(rotation::yoshida4, 5) >= 1e-3);
+  CHECK(powers(rotation::kahan_li6, 7) >= 1e-3);
 }

@@ -127,7 +127,8 @@ TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 steps"
         INFO(info.name << " on " << name << ", h = " << h);
         const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(1e5 * h, h));
         // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude.
-        const double low = info.conserves_momentum ? 1e-15 : 1e-9, high = info.conserves_momentum ? 1e-12 : 1.0;
+        const double low = info.conserves_momentum ? 1e-15 : 1e-9,
+                     high = info.conserves_momentum ? 1e-12 : 1.0;
         CHECK(within(seen.at("momentum_norm").max_drift, low, high));
         CHECK(within(seen.at("angular_momentum").max_drift, low, high));
         CHECK(within(seen.at("orthonormality").max_drift, 1e-15, 1e-12));
