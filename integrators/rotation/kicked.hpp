@@ -6,8 +6,7 @@
 
 namespace gnomon::rotation {
 
-/// A map of the free body: `turn(m, tau, by)` as in ExactDrift, and whether it is the exact one, of which
-/// pieces make a whole.
+/// A map of the free body: `turn(m, tau, by)` as in ExactDrift, and whether it is the exact one.
 template <class F>
 concept FreeFlow = requires(F& flow, const Vector3& m, double tau, Quaternion& by) {
   { F(m) } -> std::same_as<F>;  // of the principal moments
@@ -24,8 +23,8 @@ struct KickedState {
 };
 
 /// Kicks H += k h M(t, A) and maps of the free body in turn, by the fractions of `splitting`. The moment of
-/// the last kick of a step is that of the first kick of the next. Without a moment nothing is split where the
-/// map is exact: a step is one map. H changes by kicks alone, so it is kept as long as there are none.
+/// the last kick of a step is that of the first kick of the next. Without a moment nothing is split: a step
+/// is one map. H changes by kicks alone, so it is kept as long as there are none.
 template <FreeFlow Flow, const auto& splitting>
 struct Kicked {
   static constexpr int drifts = static_cast<int>(splitting.drifts.size());
@@ -57,22 +56,20 @@ struct Kicked {
 
   template <RotationForm M>
   [[gnu::noinline]] static Status step(const M& model, KickedState<Flow>& state, double t, double h) {
-    if constexpr (!M::has_moment && Flow::exact) {
+    if constexpr (!M::has_moment) {
       return drift(state, h);
     } else {
       const double* kick = splitting.kicks.data();
       double passed = 0.0;
-      if constexpr (M::has_moment && !drift_first) state.pose.momentum += *kick++ * h * state.moment;
+      if constexpr (!drift_first) state.pose.momentum += *kick++ * h * state.moment;
       for (int k = 0; k < drifts; ++k) {
         const double fraction = splitting.drifts[static_cast<std::size_t>(k)];
         const Status status = drift(state, fraction * h);
         if (status != Status::ok) return status;
-        if constexpr (M::has_moment) {
-          if (drift_first && k + 1 == drifts) break;
-          passed += fraction;
-          state.moment = model.moment(t + passed * h, state.pose.attitude);
-          state.pose.momentum += *kick++ * h * state.moment;
-        }
+        if (drift_first && k + 1 == drifts) break;
+        passed += fraction;
+        state.moment = model.moment(t + passed * h, state.pose.attitude);
+        state.pose.momentum += *kick++ * h * state.moment;
       }
       return Status::ok;
     }

@@ -8,7 +8,6 @@
 #include <random>
 #include <vector>
 
-#include "integrators/rotation/exact_splitting.hpp"
 #include "models/rigid_body/exact_free_top.hpp"
 #include "models/rigid_body/state.hpp"
 #include "tests/catch.hpp"
@@ -19,7 +18,7 @@ using rotation::Quaternion;
 
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 
 double angle_between(const Quaternion& a, const Quaternion& b) {
   const Quaternion relative = a.conjugate() * b;
@@ -33,16 +32,16 @@ Quaternion closed_form(const Vector3& inertia, const Vector3& m, double tau) {
   return top.at(Real(tau)).orientation.normalized().cast<double>();
 }
 
-struct Body {
+struct FreeBody {
   Vector3 inertia, momentum;
 };
 
 // In every order of the axes: asymmetric, symmetric, nearly so, spheres; momenta in any direction, along the
 // axes and planes, and close to the separatrix.
-std::vector<Body> bodies() {
+std::vector<FreeBody> bodies() {
   std::mt19937_64 generator(11);
   const auto uniform = [&] { return 2.0 * static_cast<double>(generator() >> 11) * 0x1p-53 - 1.0; };
-  std::vector<Body> list;
+  std::vector<FreeBody> list;
   for (Vector3 I : {Vector3(0.6, 0.8, 1.0), Vector3(1.0, 1.0, 3.0), Vector3(1.0, 3.0, 3.0),
                     Vector3(2.0, 2.0, 2.0), Vector3(1.0, 1.0 + 1e-9, 2.0), Vector3(1.0, 2.0 - 1e-9, 2.0),
                     Vector3(1.0, 1.001, 50.0), Vector3(1e-3, 2.0, 2.1)}) {
@@ -65,7 +64,7 @@ std::vector<Body> bodies() {
 
 TEST_CASE("schemes: the exact drift is the closed form", "[rotation][exact_drift]") {
   double worst = 0.0, wrong = std::numeric_limits<double>::max();
-  for (const Body& body : bodies()) {
+  for (const FreeBody& body : bodies()) {
     const ExactDrift drift(body.inertia);
     // No rate of the motion is greater than this one: near the separatrix rounding grows by exp(rate tau).
     const double rate = body.momentum.norm() / body.inertia.minCoeff();
@@ -76,7 +75,8 @@ TEST_CASE("schemes: the exact drift is the closed form", "[rotation][exact_drift
       const double error = angle_between(by, closed_form(body.inertia, body.momentum, tau));
       INFO("inertia " << body.inertia.transpose() << ", momentum " << body.momentum.transpose() << ", turned "
                       << turned << ", error " << error);
-      CHECK(error <= 40.0 * eps * (1.0 + std::abs(turned)));
+      // Relative to the turn, down to what the closed form in extended precision is good for.
+      CHECK(error <= 40.0 * rounding * std::abs(turned) + 2e-18);
       worst = std::max(worst, error);
       if (std::abs(turned) > 0.05) {
         REQUIRE(drift.turn(body.momentum, tau * (1.0 + 1e-6), by) == Status::ok);
@@ -84,7 +84,7 @@ TEST_CASE("schemes: the exact drift is the closed form", "[rotation][exact_drift
       }
     }
   }
-  CHECK(worst >= 0.1 * eps);  // the comparison is not blind
+  CHECK(worst >= 0.1 * rounding);  // the comparison is not blind
   CHECK(wrong >= 1e-11);
 }
 
@@ -94,7 +94,11 @@ TEST_CASE("schemes: the exact drift over long steps and short ones", "[rotation]
   Quaternion by;
   for (double tau : {50.0, -200.0}) {
     REQUIRE(drift.turn(m, tau, by) == Status::ok);
-    CHECK(angle_between(by, closed_form(inertia, m, tau)) <= 1e-12);
+    const double error = angle_between(by, closed_form(inertia, m, tau)),
+                 turned = m.norm() / 0.6 * std::abs(tau);
+    INFO("error " << error << " over " << turned << " rad");
+    CHECK(error <= 20.0 * rounding * turned);
+    CHECK(error >= 0.01 * rounding * turned);
   }
   // Pieces of any length make the whole.
   Quaternion whole = Quaternion::Identity();
@@ -106,50 +110,10 @@ TEST_CASE("schemes: the exact drift over long steps and short ones", "[rotation]
   }
   REQUIRE(drift.turn(m, 3.91, by) == Status::ok);
   CHECK(angle_between(by, whole) <= 2e-14);
-  CHECK(std::abs(by.norm() - 1.0) <= 4.0 * eps);
+  CHECK(std::abs(by.norm() - 1.0) <= 4.0 * rounding);
 
   REQUIRE(drift.turn(Vector3::Zero(), 1.0, by) == Status::ok);
   CHECK(by.coeffs() == Quaternion::Identity().coeffs());
   CHECK(drift.turn(m, 1e9, by) == Status::diverged);
   CHECK(drift.turn(m * std::numeric_limits<double>::quiet_NaN(), 0.1, by) == Status::diverged);
-}
-
-TEST_CASE("schemes: coefficients of the splittings", "[rotation][splitting]") {
-  const auto check = [](std::string_view name, const auto& splitting) {
-    INFO(name);
-    const auto sum_and_symmetry = [](const auto& fractions) {
-      double sum = 0.0;
-      for (double c : fractions) sum += c;
-      CHECK(std::abs(sum - 1.0) <= 4.0 * eps);
-      CHECK(std::equal(fractions.begin(), fractions.end(), fractions.rbegin()));
-    };
-    sum_and_symmetry(splitting.kicks);
-    sum_and_symmetry(splitting.drifts);
-  };
-  check("strang", rotation::strang);
-  check("yoshida4", rotation::yoshida4);
-  check("suzuki4", rotation::suzuki4);
-  check("blanes-moan4", rotation::blanes_moan4);
-  check("blanes-moan-rkn4", rotation::blanes_moan_rkn4);
-  check("blanes-moan-rkn6", rotation::blanes_moan_rkn6);
-  check("kahan-li6", rotation::kahan_li6);
-  check("mclachlan8", rotation::mclachlan8);
-  check("kahan-li8", rotation::kahan_li8);
-
-  // Order conditions of symmetric compositions of Strang steps: the sums of the odd powers are 0.
-  const auto powers = [](const auto& splitting, int power) {
-    double sum = 0.0;
-    for (double c : splitting.drifts) sum += std::pow(c, power);
-    return std::abs(sum);
-  };
-  for (int p : {3, 5, 7}) {
-    INFO("power " << p);
-    if (p < 5) CHECK(powers(rotation::yoshida4, p) <= 32.0 * eps);
-    if (p < 5) CHECK(powers(rotation::suzuki4, p) <= 8.0 * eps);
-    if (p < 7) CHECK(powers(rotation::kahan_li6, p) <= 8.0 * eps);
-    CHECK(powers(rotation::mclachlan8, p) <= 8.0 * eps);
-    CHECK(powers(rotation::kahan_li8, p) <= 8.0 * eps);
-  }
-  CHECK(powers(rotation::yoshida4, 5) >= 1e-3);
-  CHECK(powers(rotation::kahan_li6, 7) >= 1e-3);
 }
