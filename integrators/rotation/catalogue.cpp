@@ -1,14 +1,22 @@
 #include "integrators/catalogue.hpp"
 #include "integrators/rotation/exact_free_top.hpp"
-#include "integrators/rotation/munjiza.hpp"
+#include "integrators/rotation/exact_heavy_symmetric_top.hpp"
+#include "integrators/rotation/families.hpp"
 #include "models/catalogue.hpp"
 
 namespace gnomon {
 
 void add_rotation_schemes(Catalogue& catalogue) {
   using namespace rotation;
-  using Schemes = TypeList<Munjiza, MunjizaHalfImpulse, MunjizaStageMoments, Rkmk4, ExactFreeTop>;
-  add_schemes<Models>(catalogue, Schemes{});
+  add_schemes<Models>(catalogue, MunjizaSchemes{});
+  add_splitting_schemes(catalogue);
+  add_high_splitting_schemes(catalogue);
+  add_moser_veselov_schemes(catalogue);
+  add_moser_veselov_splittings(catalogue);
+  add_high_moser_veselov_splittings(catalogue);
+  add_second_order_schemes(catalogue);
+  add_explicit_schemes(catalogue);
+  add_schemes<Models>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});
 }
 
 }  // namespace gnomon

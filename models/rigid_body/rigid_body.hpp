@@ -10,6 +10,7 @@
 #include "models/rigid_body/absolute_dae.hpp"
 #include "models/rigid_body/dae.hpp"
 #include "models/rigid_body/exact_free_top.hpp"
+#include "models/rigid_body/heavy_symmetric_top.hpp"
 #include "models/rigid_body/load.hpp"
 #include "models/rigid_body/ode.hpp"
 #include "models/rigid_body/state.hpp"
@@ -168,6 +169,30 @@ class RigidBody {
     return {state.orientation.normalized().toRotationMatrix(), state.angular_momentum};
   }
 
+  /// The closed form of Lagrange's top, as an integrator of its own, and why this body is none; empty if it
+  /// is.
+  State symmetric_top(double t) const requires std::is_same_v<Load, Gravity> {
+    using Real = long double;
+    using Quaternion = Eigen::Quaternion<Real>;
+    const Eigen::Matrix3d axes = top_axes();
+    const Quaternion turn(Eigen::Matrix<Real, 3, 3>(axes.cast<Real>()));
+    const Quaternion q = unit_quaternion(initial_.attitude).cast<Real>().normalized();
+    const Vector<Real> m = axes.transpose().cast<Real>() * initial_.angular_momentum.cast<Real>();
+    const int axis = symmetry_axis();
+    const HeavySymmetricTop<Real> top(inertia_[(axis + 1) % 3], inertia_[axis],
+                                      std::abs(Real(load_.weight) * load_.centre[axis]), q * turn, m);
+    const auto state = top.at(Real(t));
+    const Quaternion orientation = (state.orientation * turn.conjugate()).normalized();
+    return {orientation.toRotationMatrix().template cast<double>(),
+            axes * state.angular_momentum.template cast<double>()};
+  }
+  std::string_view symmetric_top_refusal() const requires std::is_same_v<Load, Gravity> {
+    const int axis = symmetry_axis();
+    if (axis < 0) return "the body is not symmetric about the axis through its centre";
+    if (load_.weight * load_.centre[axis] == 0.0) return "the weight has no moment";
+    return {};
+  }
+
   /// The same in extended precision, as a reference with its bound.
   Exact<RigidBody> exact(double t) const requires(!has_moment) {
     using Real = long double;
@@ -193,6 +218,15 @@ class RigidBody {
       }
     }
     return -1;
+  }
+  /// Right-handed axes with the third along the symmetry axis, on the side of the greater potential energy.
+  Eigen::Matrix3d top_axes() const requires std::is_same_v<Load, Gravity> {
+    const int axis = symmetry_axis(), a = (axis + 1) % 3, b = (axis + 2) % 3;
+    const bool upright = load_.weight * load_.centre[axis] > 0.0;
+    Eigen::Matrix3d axes;
+    axes << Eigen::Vector3d::Unit(upright ? a : b), Eigen::Vector3d::Unit(upright ? b : a),
+        (upright ? 1.0 : -1.0) * Eigen::Vector3d::Unit(axis);
+    return axes;
   }
   bool is_kovalevskaya() const {
     if constexpr (std::is_same_v<Load, Gravity>) {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "integrators/rotation/munjiza.hpp"
+#include "integrators/rotation/families.hpp"
 #include "src/run.hpp"
 #include "tests/catch.hpp"
 #include "tests/support/allocations.hpp"
@@ -18,12 +18,21 @@ using namespace gnomon::test;
 
 namespace {
 
-using FixedSchemes =
-    TypeList<rotation::Munjiza, rotation::MunjizaHalfImpulse, rotation::MunjizaStageMoments, rotation::Rkmk4>;
-
 template <class Body, class... S>
 void for_each(TypeList<S...>, Body&& body) {
   (body(TypeList<S>{}), ...);
+}
+
+template <class Body>
+void for_each_scheme(Body&& body) {
+  for_each(rotation::MunjizaSchemes{}, body);
+  for_each(rotation::SplittingSchemes{}, body);
+  for_each(rotation::HighSplittingSchemes{}, body);
+  for_each(rotation::MoserVeselovSchemes{}, body);
+  for_each(rotation::MoserVeselovSplittings{}, body);
+  for_each(rotation::HighMoserVeselovSplittings{}, body);
+  for_each(rotation::SecondOrderSchemes{}, body);
+  for_each(rotation::ExplicitSchemes{}, body);
 }
 
 // Allocations of 1000 steps in the driver's inner loop.
@@ -87,7 +96,7 @@ TEST_CASE("schemes: the counters of allocations see what is allocated", "[rotati
 TEST_CASE("schemes: steps of equal size allocate nothing", "[rotation][allocation]") {
   const Catalogue catalogue = full_catalogue();
   std::vector<std::string_view> names;
-  for_each(FixedSchemes{}, [&]<class S>(TypeList<S>) { names.push_back(S::info.name); });
+  for_each_scheme([&]<class S>(TypeList<S>) { names.push_back(S::info.name); });
   // Every scheme of equal steps on rigid bodies is in the list above.
   for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed))
     if (info.form == "rotation") CHECK(std::count(names.begin(), names.end(), info.name) == 1);
@@ -96,7 +105,7 @@ TEST_CASE("schemes: steps of equal size allocate nothing", "[rotation][allocatio
        {"asymmetric-free-top", "asymmetric-heavy-top", "space-moment", "body-moment", "rest-then-pushed"}) {
     const Scene scene = load_scene(catalogue, name);
     with_rigid_body(scene, [&](const auto& model) {
-      for_each(FixedSchemes{}, [&]<class S>(TypeList<S>) {
+      for_each_scheme([&]<class S>(TypeList<S>) {
         INFO(S::info.name << " on " << name);
         CHECK(allocations_of_steps<S>(model) == 0);
       });

@@ -115,24 +115,67 @@ struct ExactSteps {
 
 }  // namespace
 
-TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 steps", "[rotation][invariants]") {
+namespace {
+
+// Without a moment a splitting is one drift, so one scheme of each drift stands for all of them.
+bool repeats_a_drift(const SchemeInfo& info) {
+  const auto ends_with = [&](std::string_view end) { return info.name.ends_with(end); };
+  return (ends_with("-exact-drift") && info.name != "strang-exact-drift") || ends_with("-dmv10");
+}
+
+void check_momentum_and_orthonormality(double h) {
   const Catalogue catalogue = full_catalogue();
   for (const char* name : {"asymmetric-free-top", "symmetric-free-top", "dzhanibekov"}) {
-    for (double h : {0.01, 0.1}) {
-      SceneChanges longer;
-      longer.t_end = 1e5 * h;
-      const Scene scene = load_scene(catalogue, name, longer);
-      for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
-        if (!catalogue.pair(info.name, *scene.model)) continue;
-        INFO(info.name << " on " << name << ", h = " << h);
-        const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(1e5 * h, h));
-        // |A^T H|: the momentum that the scheme stores is constant, so this shows the attitude.
-        CHECK(within(seen.at("momentum_norm").max_drift, 1e-15, 1e-12));
-        CHECK(within(seen.at("angular_momentum").max_drift, 1e-15, 1e-12));
-        CHECK(within(seen.at("orthonormality").max_drift, 1e-15, 1e-12));
+    SceneChanges longer;
+    longer.t_end = 1e5 * h;
+    const Scene scene = load_scene(catalogue, name, longer);
+    for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
+      if (!catalogue.pair(info.name, *scene.model) || repeats_a_drift(info)) continue;
+      const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(1e5 * h, h));
+      const double norm = seen.at("momentum_norm").max_drift,
+                   momentum = seen.at("angular_momentum").max_drift;
+      INFO(info.name << " on " << name << ", h = " << h << ": " << norm << ", " << momentum);
+      // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude. Where that is
+      // a unit quaternion, it is a few units in the last place off. The others lose momentum.
+      if (info.conserves_momentum) {
+        const bool matrix = info.name.starts_with("munjiza") || info.name == "rkmk4";
+        CHECK(within(norm, matrix ? 1e-15 : 2e-16, 1e-12));
+        CHECK(within(momentum, 1e-15, 1e-12));
+      } else {
+        CHECK(within(norm, 1e-14, 1.0));
+        CHECK(within(momentum, 5e-12, 1.0));
       }
+      CHECK(within(seen.at("orthonormality").max_drift, 1e-15, 1e-12));
     }
   }
+}
+
+}  // namespace
+
+TEST_CASE("schemes: without a moment a splitting is its drift", "[rotation][splitting]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene scene = load_scene(catalogue, "asymmetric-free-top");
+  int compared = 0;
+  for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
+    if (!repeats_a_drift(info)) continue;
+    ++compared;
+    const char* drift = info.name.ends_with("-dmv10") ? "dmv10" : "strang-exact-drift";
+    const RunSpec spec = fixed_step(10.0, 0.1);
+    INFO(info.name);
+    CHECK(run_scheme(catalogue, info.name, *scene.model, spec).state ==
+          run_scheme(catalogue, drift, *scene.model, spec).state);
+  }
+  CHECK(compared == 16);
+}
+
+TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 small steps",
+          "[rotation][invariants]") {
+  check_momentum_and_orthonormality(0.01);
+}
+
+TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 large steps",
+          "[rotation][invariants]") {
+  check_momentum_and_orthonormality(0.1);
 }
 
 TEST_CASE("schemes: the energy of a free body drifts", "[rotation][invariants]") {
@@ -192,20 +235,33 @@ TEST_CASE("schemes: conservation under gravity", "[rotation][invariants]") {
     for (const SchemeInfo& info : schemes(catalogue, Stepping::fixed)) {
       if (!catalogue.pair(info.name, *scene.model)) continue;
       const double order = info.order_for("gravity").value();
-      double coarser = 0.0;
-      for (double h : {0.0125, 0.00625, 0.003125}) {
+      // The error of the energy is of the order of the scheme. Two halvings show it, one where the order is
+      // high, from the least step from which they end above rounding.
+      const int halvings = order > 5.0 ? 1 : 2;
+      const double enough = 4e-13 * std::exp2(halvings * order);
+      double h = 0.0125, coarser = 0.0;
+      for (int left = halvings; left >= 0;) {
         const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(scene.t_end, h));
         const double energy = seen.at("energy").max_drift;
-        INFO(info.name << " on " << name << ", h = " << h << ", energy " << energy);
-        // The error of the energy is of the order of the scheme.
-        if (coarser > 0.0) CHECK(std::abs(std::log2(coarser / energy) - order) <= 0.1);
-        coarser = energy;
+        INFO(info.name << " on " << name << ", h = " << h << ", energy " << energy << " after " << coarser);
         // The moment of the weight is horizontal at every stage, so the vertical momentum is kept.
-        CHECK(seen.at("vertical_momentum").max_drift <= 1e-13);
+        CHECK((seen.at("vertical_momentum").max_drift <= 1e-13) == info.conserves_momentum);
         CHECK(seen.at("orthonormality").max_drift <= 1e-13);
-        if (seen.count("kovalevskaya")) CHECK(seen.at("kovalevskaya").max_drift >= 1e-13);
+        if (coarser == 0.0 && energy < enough && h < 0.2) {
+          h *= 2.0;
+          continue;
+        }
+        if (coarser == 0.0 && energy < enough) {
+          CHECK(order > 5.0);  // so exact that it meets rounding before its asymptotic range
+          break;
+        }
+        if (coarser == 0.0 && seen.count("kovalevskaya")) CHECK(seen.at("kovalevskaya").max_drift >= 1e-13);
+        if (coarser > 0.0) CHECK(std::abs(std::log2(coarser / energy) - order) <= (order < 8.0 ? 0.1 : 0.15));
+        CHECK(energy >= 1e-13);
+        coarser = energy;
+        h *= 0.5;
+        --left;
       }
-      CHECK(coarser >= 1e-13);
     }
   }
 }
@@ -218,7 +274,7 @@ TEST_CASE("schemes: the impulse of a moment fixed in space is kept", "[rotation]
       if (!catalogue.pair(info.name, *scene.model)) continue;
       INFO(info.name << " on " << name);
       const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(scene.t_end, 0.01));
-      CHECK(seen.at("momentum_balance").max_drift <= 5e-13);
+      CHECK((seen.at("momentum_balance").max_drift <= 5e-13) == info.conserves_momentum);
     }
   }
   // Seen against a model that is told another moment.

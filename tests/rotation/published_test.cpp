@@ -126,7 +126,8 @@ TEST_CASE("schemes: energy of the heavy symmetric top", "[rotation][published]")
     INFO(info.name);
     const double drift = scheme_drift(catalogue, scene, info.name, 0.009, "energy");
     CHECK(drift <= 1e-3);
-    CHECK(drift >= 1e-9);
+    // Splittings of order 4 and more come down towards rounding, the others stay above it.
+    CHECK((drift <= 1e-9) == (info.reversible && info.order_for("gravity").value() >= 4.0));
   }
 }
 

@@ -218,8 +218,11 @@ TEST_CASE("schemes: a body at rest", "[rotation]") {
     CHECK(result.status == Status::ok);
     REQUIRE(all_finite(result.state));
     const auto error = pushed->distance(result.state, reference.states.back());
-    CHECK(error[0] <= 0.1);  // the motion turns by about 1 rad
-    CHECK(error[0] >= 1e-9);
+    // The motion turns by about 1 rad. Its direction of H is constant, so that kicks by the moment and drifts
+    // follow it as exactly as the drifts are.
+    const double drift_order = info.order_for("none").value_or(100.0);
+    CHECK(error[0] <= (drift_order >= 8.0 ? 1e-13 : 0.1));
+    if (drift_order < 8.0) CHECK(error[0] >= (drift_order >= 6.0 ? 1e-12 : 1e-9));
     for (double value : result.invariants.values) CHECK(std::isfinite(value));
   }
 }
