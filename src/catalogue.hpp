@@ -72,6 +72,13 @@ struct ReferenceSolver {
 template <class... T>
 struct TypeList {};
 
+namespace detail {
+template <class... A, class... B>
+TypeList<A..., B...> join(TypeList<A...>, TypeList<B...>);
+}  // namespace detail
+template <class A, class B>
+using Joined = decltype(detail::join(A{}, B{}));
+
 /// Everything that exists: the models, the schemes and which of them go together.
 struct Catalogue {
   std::vector<ModelEntry> models;

@@ -1,12 +1,12 @@
 #include "integrators/catalogue.hpp"
 #include "integrators/beam/midpoint.hpp"
-#include "models/catalogue.hpp"
+#include "models/planar_beam/types.hpp"
 
 namespace gnomon {
 
 void add_beam_schemes(Catalogue& catalogue) {
   using namespace beam;
-  add_schemes<Models>(catalogue, TypeList<BeamMidpoint, BeamEnergyMomentum>{});
+  add_schemes<PlanarBeams>(catalogue, TypeList<BeamMidpoint, BeamEnergyMomentum>{});
 }
 
 }  // namespace gnomon

@@ -2,13 +2,13 @@
 #include "integrators/rotation/exact_free_top.hpp"
 #include "integrators/rotation/exact_heavy_symmetric_top.hpp"
 #include "integrators/rotation/families.hpp"
-#include "models/catalogue.hpp"
+#include "models/rigid_body/types.hpp"
 
 namespace gnomon {
 
 void add_rotation_schemes(Catalogue& catalogue) {
   using namespace rotation;
-  add_schemes<Models>(catalogue, MunjizaSchemes{});
+  add_schemes<RigidBodies>(catalogue, MunjizaSchemes{});
   add_splitting_schemes(catalogue);
   add_high_splitting_schemes(catalogue);
   add_moser_veselov_schemes(catalogue);
@@ -16,7 +16,7 @@ void add_rotation_schemes(Catalogue& catalogue) {
   add_high_moser_veselov_splittings(catalogue);
   add_second_order_schemes(catalogue);
   add_explicit_schemes(catalogue);
-  add_schemes<Models>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});
+  add_schemes<RigidBodies>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});
 }
 
 }  // namespace gnomon

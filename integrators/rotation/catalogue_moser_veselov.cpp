@@ -1,10 +1,10 @@
 #include "integrators/rotation/families.hpp"
-#include "models/catalogue.hpp"
+#include "models/rigid_body/types.hpp"
 
 namespace gnomon::rotation {
 
 void add_moser_veselov_schemes(Catalogue& catalogue) {
-  add_schemes<Models>(catalogue, MoserVeselovSchemes{});
+  add_schemes<RigidBodies>(catalogue, MoserVeselovSchemes{});
 }
 
 }  // namespace gnomon::rotation
