@@ -1,0 +1,254 @@
+// The schemes of discrete-element and molecular practice: orders, conservation, and what their papers claim.
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+
+#include "integrators/rotation/discrete_element.hpp"
+#include "src/measure/drift.hpp"
+#include "src/study/study.hpp"
+#include "tests/catch.hpp"
+#include "tests/rotation/printed_steps.hpp"
+#include "tests/support/scenes.hpp"
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+// Orders of orientation and momentum.
+struct TwoOrders {
+  double orientation, momentum;
+};
+struct PracticeScheme {
+  const char* name;
+  TwoOrders none, gravity, space_moment, body_moment;
+  bool conserves_momentum, reversible;
+};
+constexpr TwoOrders first{1, 1}, second{2, 2}, mixed{2, 3};
+constexpr PracticeScheme practice[] = {
+    {"fincham-leapfrog", second, second, second, second, true, false},
+    {"omelyan", second, second, second, second, false, true},
+    {"richardson", second, second, second, second, true, false},
+    {"no-squish", second, second, second, second, true, true},
+    {"buss", second, second, second, second, true, false},
+    {"buss-augmented", second, second, second, second, true, false},
+    {"johnson-williams-cook", second, first, first, first, true, false},
+    {"spiral-leapfrog", mixed, second, second, mixed, false, false},
+    {"spiral-synchronous", mixed, first, first, mixed, false, false},
+    {"zhao-van-wachem", second, second, second, second, false, false},
+};
+
+Catalogue practice_catalogue() {
+  Catalogue catalogue;
+  add_models(catalogue);
+  rotation::add_discrete_element_schemes(catalogue);
+  return catalogue;
+}
+
+RunResult run_steps(const Catalogue& catalogue, const char* scheme, const AnyModel& model, double t_end,
+                    long steps, int watch = 0) {
+  RunSpec spec;
+  spec.t_end = t_end;
+  spec.step = t_end / static_cast<double>(steps);
+  spec.watch = watch;
+  spec.record = watch > 0;
+  RunResult result = run_scheme(catalogue, scheme, model, spec);
+  REQUIRE(result.status == Status::ok);
+  REQUIRE(result.cost.steps == steps);
+  return result;
+}
+
+// Orders from errors at steps halved one by one; each within 0.15 of the declared one.
+void check_slopes(const std::vector<double>& errors, double declared) {
+  for (std::size_t k = 1; k < errors.size(); ++k) {
+    const double slope = std::log2(errors[k - 1] / errors[k]);
+    INFO("step halved " << k << " times: error " << errors[k] << ", order " << slope);
+    CHECK(std::abs(slope - declared) <= 0.15);
+  }
+}
+
+void check_orders(const char* scene_name, const TwoOrders PracticeScheme::*orders, double t_end, long steps) {
+  const Catalogue catalogue = practice_catalogue();
+  const Scene scene = load_scene(catalogue, scene_name);
+  const ReferenceStates reference = scene.model->reference({t_end});
+  REQUIRE(!reference.kind.empty());
+  for (const PracticeScheme& scheme : practice) {
+    const TwoOrders& declared = scheme.*orders;
+    std::vector<double> orientation, momentum;
+    for (long n = declared.orientation == 1.0 ? 8 * steps : steps; orientation.size() < 4; n *= 2) {
+      const RunResult result = run_steps(catalogue, scheme.name, *scene.model, t_end, n);
+      const auto error = scene.model->distance(result.state, reference.states.front());
+      orientation.push_back(error[0]);
+      momentum.push_back(error[1]);
+    }
+    INFO(scheme.name << " on " << scene_name);
+    {
+      INFO("orientation");
+      check_slopes(orientation, declared.orientation);
+    }
+    {
+      INFO("momentum");
+      check_slopes(momentum, declared.momentum);
+    }
+    const SchemeInfo& info = *catalogue.scheme(scheme.name);
+    const auto load = scene.model->load_class();
+    CHECK(info.order_for(load, "orientation") == declared.orientation);
+    CHECK(info.order_for(load, "momentum") == declared.momentum);
+  }
+}
+
+// Drifts of the invariants of a free body, by name.
+std::map<std::string, InvariantSummary> free_drifts(const Catalogue& catalogue, const char* scheme,
+                                                    const Scene& scene, double t_end, long steps) {
+  const RunResult result = run_steps(catalogue, scheme, *scene.model, t_end, steps, 1000);
+  std::map<std::string, InvariantSummary> named;
+  for (InvariantSummary& summary : summarise_invariants(*scene.model, result.invariants))
+    named[summary.info.name] = summary;
+  return named;
+}
+
+double worst(const std::array<double, 2>& error) { return std::max(error[0], error[1]); }
+
+}  // namespace
+
+TEST_CASE("practice: orders on a free body", "[rotation][practice]") {
+  check_orders("asymmetric-free-top", &PracticeScheme::none, 10.0, 1000);
+}
+TEST_CASE("practice: orders with a moment fixed in space", "[rotation][practice]") {
+  check_orders("space-moment", &PracticeScheme::space_moment, 5.0, 500);
+}
+TEST_CASE("practice: orders with a moment fixed in the body", "[rotation][practice]") {
+  check_orders("body-moment", &PracticeScheme::body_moment, 5.0, 500);
+}
+TEST_CASE("practice: orders with a weight", "[rotation][practice]") {
+  check_orders("asymmetric-heavy-top", &PracticeScheme::gravity, 5.0, 1000);
+}
+
+TEST_CASE("practice: what a free body keeps", "[rotation][practice]") {
+  const Catalogue catalogue = practice_catalogue();
+  const Scene scene = load_scene(catalogue, "asymmetric-free-top");
+  for (const PracticeScheme& scheme : practice) {
+    INFO(scheme.name);
+    auto seen = free_drifts(catalogue, scheme.name, scene, 500.0, 10000);
+    CHECK(seen.at("orthonormality").max_drift <= 1e-14);
+    const double momentum = seen.at("angular_momentum").max_drift;
+    CHECK((momentum <= 1e-12) == scheme.conserves_momentum);
+    CHECK((momentum >= 1e-7) == !scheme.conserves_momentum);
+    const InvariantSummary& energy = seen.at("energy");
+    const auto verdict = measure_drift(energy.times, energy.drift, 0.0).verdict;
+    INFO("energy " << energy.max_drift << " " << to_string(verdict));
+    CHECK(verdict == (scheme.reversible ? DriftVerdict::bounded : DriftVerdict::secular));
+    CHECK(energy.max_drift >= 1e-6);
+    CHECK(catalogue.scheme(scheme.name)->conserves_momentum == scheme.conserves_momentum);
+    CHECK(catalogue.scheme(scheme.name)->reversible == scheme.reversible);
+    CHECK(!catalogue.scheme(scheme.name)->conserves_energy);
+  }
+}
+
+TEST_CASE("practice: reversible are two", "[rotation][practice]") {
+  const Catalogue catalogue = practice_catalogue();
+  const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
+  const auto& body = typed<RigidBody<Gravity>>(scene);
+  for (const PracticeScheme& scheme : practice) {
+    const RunResult there = run_steps(catalogue, scheme.name, *scene.model, 10.0, 1000);
+    const auto turned = box(RigidBody<Gravity>(body.inertia(), body.restore(there.state), body.load(), 10.0));
+    RunSpec spec;
+    spec.t_end = -10.0;
+    spec.step = -0.01;
+    spec.record = false;
+    const RunResult back = run_scheme(catalogue, scheme.name, *turned, spec);
+    const double error = worst(body.distance(body.restore(back.state), body.initial()));
+    INFO(scheme.name << " " << error);
+    CHECK((error <= 1e-11) == scheme.reversible);
+    CHECK((error >= 1e-8) == !scheme.reversible);
+  }
+}
+
+TEST_CASE("practice: the production code is what the codes have", "[rotation][practice]") {
+  const Catalogue catalogue = practice_catalogue();
+  const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
+  const auto& body = typed<RigidBody<Gravity>>(scene);
+  const printed::Run run{body, 0.01, 500};
+  const auto apart = [&](const char* name, const BodyState& state) {
+    const RunResult result = run_steps(catalogue, name, *scene.model, 5.0, run.n);
+    return worst(body.distance(body.restore(result.state), state));
+  };
+  CHECK(apart("fincham-leapfrog", printed::fincham(run, true)) <= 1e-12);
+  CHECK(apart("richardson", printed::richardson(run)) <= 1e-12);
+  CHECK(apart("no-squish", printed::no_squish(run)) <= 1e-12);
+  CHECK(apart("buss", printed::buss(run, false)) <= 1e-12);
+  CHECK(apart("buss-augmented", printed::buss(run, true)) <= 1e-12);
+  CHECK(apart("omelyan", printed::omelyan(run)) <= 1e-12);
+  CHECK(apart("spiral-leapfrog", printed::spiral_leapfrog(run)) <= 1e-12);
+  CHECK(apart("spiral-synchronous", printed::spiral_synchronous(run)) <= 1e-12);
+  CHECK(apart("zhao-van-wachem", printed::zhao_van_wachem(run, false)) <= 1e-12);
+  // No two of them are the same.
+  CHECK(apart("buss", printed::buss(run, true)) >= 1e-6);
+  CHECK(apart("fincham-leapfrog", printed::fincham(run, false)) >= 1e-4);
+  CHECK(apart("zhao-van-wachem", printed::zhao_van_wachem(run, true)) >= 1e-4);
+  CHECK(apart("richardson", printed::fincham(run, true)) >= 1e-6);
+  CHECK(apart("spiral-leapfrog", printed::spiral_synchronous(run)) >= 1e-6);
+}
+
+TEST_CASE("practice: the quaternion form of Munjiza's scheme is his scheme", "[rotation][practice]") {
+  const Catalogue catalogue = full_catalogue();
+  for (const char* name :
+       {"asymmetric-free-top", "asymmetric-heavy-top", "body-moment", "rest-then-pushed"}) {
+    const Scene scene = load_scene(catalogue, name);
+    INFO(name);
+    const auto end = [&](const char* scheme) {
+      return run_steps(catalogue, scheme, *scene.model, 5.0, 100).state;
+    };
+    const auto same = scene.model->distance(end("johnson-williams-cook"), end("munjiza"));
+    const auto other = scene.model->distance(end("johnson-williams-cook"), end("rkmk4"));
+    CHECK(std::max(same[0], same[1]) <= 1e-13);
+    CHECK(std::max(other[0], other[1]) >= 1e-6);
+  }
+}
+
+TEST_CASE("practice: variants in use are of order 1", "[rotation][practice]") {
+  const Catalogue catalogue = practice_catalogue();
+  const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
+  const auto& body = typed<RigidBody<Gravity>>(scene);
+  const BodyState exact = body.restore(scene.model->reference({5.0}).states.front());
+  const auto errors = [&](auto&& steps, std::size_t metric) {
+    std::vector<double> found;
+    for (long n : {8000, 16000, 32000})
+      found.push_back(
+          body.distance(steps(printed::Run{body, 5.0 / static_cast<double>(n), n}), exact)[metric]);
+    return found;
+  };
+  for (std::size_t metric : {0, 1}) {
+    // The second angular velocity of the leapfrog with the attitude of time t, not of the middle.
+    check_slopes(errors([](const printed::Run& run) { return printed::fincham(run, false); }, metric), 1.0);
+    check_slopes(errors([](const printed::Run& run) { return printed::fincham(run, true); }, metric), 2.0);
+    // The predictor-corrector with one moment a step.
+    check_slopes(errors([](const printed::Run& run) { return printed::zhao_van_wachem(run, true); }, metric),
+                 1.0);
+    check_slopes(errors([](const printed::Run& run) { return printed::zhao_van_wachem(run, false); }, metric),
+                 2.0);
+  }
+}
+
+TEST_CASE("practice: end state of the cylinder of the SPIRAL paper", "[rotation][practice]") {
+  const Eigen::Quaterniond q(0.9775650205852, 0.1624605750054, -0.1340474643670, 0.0021140941174);
+  const Eigen::Vector3d w(87.920785874248, -0.815978794068, 0.710055355329);
+  const Catalogue catalogue = practice_catalogue();
+  const Scene scene = load_scene(catalogue, "spiral-cylinder");
+  const auto& body = typed<RigidBody<BodyMoment>>(scene);
+  const BodyState published{q.normalized().toRotationMatrix(), body.inertia().cwiseProduct(w)};
+  for (const char* name : {"spiral-leapfrog", "spiral-synchronous"}) {
+    std::vector<double> orientation, velocity;
+    for (long n : {4000, 8000, 16000}) {
+      const BodyState end = body.restore(run_steps(catalogue, name, *scene.model, 2.0, n).state);
+      orientation.push_back(body.distance(end, published)[0]);
+      velocity.push_back((end.angular_momentum.cwiseQuotient(body.inertia()) - w).norm());
+    }
+    INFO(name << ": orientation " << orientation.back() << " rad, velocity " << velocity.back() << " rad/s");
+    check_slopes(orientation, 2.0);
+    check_slopes(velocity, 3.0);
+    CHECK(orientation.back() <= 1e-5);
+    CHECK(velocity.back() <= 1e-7);
+  }
+}
