@@ -13,7 +13,7 @@ struct FinchamTurn {
     Quaternion rate;  // (0, w)/2
     rate.w() = 0.0;
     rate.vec() = 0.5 * m_half.cwiseQuotient(inertia);
-    return unit(Quaternion::Identity().coeffs() + h * (middle * rate).coeffs());
+    return unit_along(Quaternion::Identity().coeffs() + h * (middle * rate).coeffs());
   }
 };
 

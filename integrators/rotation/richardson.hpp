@@ -13,7 +13,7 @@ struct RichardsonTurn {
     const Quaternion one = cayley(0.5 * h * w), half = cayley(0.25 * h * w);
     const Vector3 w_half = (half.conjugate() * m_half).cwiseQuotient(inertia);
     const Quaternion two = half * cayley(0.25 * h * w_half);
-    return unit(2.0 * two.coeffs() - one.coeffs());
+    return unit_along(2.0 * two.coeffs() - one.coeffs());
   }
 };
 

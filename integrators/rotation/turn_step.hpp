@@ -4,7 +4,7 @@
 namespace gnomon::rotation {
 
 /// The unit quaternion along (x, y, z, w).
-inline Quaternion unit(const Eigen::Vector4d& coefficients) {
+inline Quaternion unit_along(const Eigen::Vector4d& coefficients) {
   Quaternion q;
   q.coeffs() = coefficients / std::sqrt(coefficients.squaredNorm());
   return q;

@@ -17,26 +17,26 @@ using namespace gnomon::test;
 namespace {
 
 // Orders of orientation and momentum.
-struct TwoOrders {
+struct PracticeOrders {
   double orientation, momentum;
 };
 struct PracticeScheme {
   const char* name;
-  TwoOrders none, gravity, space_moment, body_moment;
+  PracticeOrders none, gravity, space_moment, body_moment;
   bool conserves_momentum, reversible;
 };
-constexpr TwoOrders first{1, 1}, second{2, 2}, mixed{2, 3};
-constexpr PracticeScheme practice[] = {
-    {"fincham-leapfrog", second, second, second, second, true, false},
-    {"omelyan", second, second, second, second, false, true},
-    {"richardson", second, second, second, second, true, false},
-    {"no-squish", second, second, second, second, true, true},
-    {"buss", second, second, second, second, true, false},
-    {"buss-augmented", second, second, second, second, true, false},
-    {"johnson-williams-cook", second, first, first, first, true, false},
-    {"spiral-leapfrog", mixed, second, second, mixed, false, false},
-    {"spiral-synchronous", mixed, first, first, mixed, false, false},
-    {"zhao-van-wachem", second, second, second, second, false, false},
+constexpr PracticeOrders order_one{1, 1}, order_two{2, 2}, two_and_three{2, 3};
+constexpr PracticeScheme practice_schemes[] = {
+    {"fincham-leapfrog", order_two, order_two, order_two, order_two, true, false},
+    {"omelyan", order_two, order_two, order_two, order_two, false, true},
+    {"richardson", order_two, order_two, order_two, order_two, true, false},
+    {"no-squish", order_two, order_two, order_two, order_two, true, true},
+    {"buss", order_two, order_two, order_two, order_two, true, false},
+    {"buss-augmented", order_two, order_two, order_two, order_two, true, false},
+    {"johnson-williams-cook", order_two, order_one, order_one, order_one, true, false},
+    {"spiral-leapfrog", two_and_three, order_two, order_two, two_and_three, false, false},
+    {"spiral-synchronous", two_and_three, order_one, order_one, two_and_three, false, false},
+    {"zhao-van-wachem", order_two, order_two, order_two, order_two, false, false},
 };
 
 Catalogue practice_catalogue() {
@@ -46,8 +46,8 @@ Catalogue practice_catalogue() {
   return catalogue;
 }
 
-RunResult run_steps(const Catalogue& catalogue, const char* scheme, const AnyModel& model, double t_end,
-                    long steps, int watch = 0) {
+RunResult run_practice(const Catalogue& catalogue, const char* scheme, const AnyModel& model, double t_end,
+                       long steps, int watch = 0) {
   RunSpec spec;
   spec.t_end = t_end;
   spec.step = t_end / static_cast<double>(steps);
@@ -60,7 +60,7 @@ RunResult run_steps(const Catalogue& catalogue, const char* scheme, const AnyMod
 }
 
 // Orders from errors at steps halved one by one; each within 0.15 of the declared one.
-void check_slopes(const std::vector<double>& errors, double declared) {
+void check_practice_slopes(const std::vector<double>& errors, double declared) {
   for (std::size_t k = 1; k < errors.size(); ++k) {
     const double slope = std::log2(errors[k - 1] / errors[k]);
     INFO("step halved " << k << " times: error " << errors[k] << ", order " << slope);
@@ -68,16 +68,17 @@ void check_slopes(const std::vector<double>& errors, double declared) {
   }
 }
 
-void check_orders(const char* scene_name, const TwoOrders PracticeScheme::*orders, double t_end, long steps) {
+void check_practice_orders(const char* scene_name, const PracticeOrders PracticeScheme::*orders, double t_end,
+                           long steps) {
   const Catalogue catalogue = practice_catalogue();
   const Scene scene = load_scene(catalogue, scene_name);
   const ReferenceStates reference = scene.model->reference({t_end});
   REQUIRE(!reference.kind.empty());
-  for (const PracticeScheme& scheme : practice) {
-    const TwoOrders& declared = scheme.*orders;
+  for (const PracticeScheme& scheme : practice_schemes) {
+    const PracticeOrders& declared = scheme.*orders;
     std::vector<double> orientation, momentum;
     for (long n = declared.orientation == 1.0 ? 8 * steps : steps; orientation.size() < 4; n *= 2) {
-      const RunResult result = run_steps(catalogue, scheme.name, *scene.model, t_end, n);
+      const RunResult result = run_practice(catalogue, scheme.name, *scene.model, t_end, n);
       const auto error = scene.model->distance(result.state, reference.states.front());
       orientation.push_back(error[0]);
       momentum.push_back(error[1]);
@@ -85,11 +86,11 @@ void check_orders(const char* scene_name, const TwoOrders PracticeScheme::*order
     INFO(scheme.name << " on " << scene_name);
     {
       INFO("orientation");
-      check_slopes(orientation, declared.orientation);
+      check_practice_slopes(orientation, declared.orientation);
     }
     {
       INFO("momentum");
-      check_slopes(momentum, declared.momentum);
+      check_practice_slopes(momentum, declared.momentum);
     }
     const SchemeInfo& info = *catalogue.scheme(scheme.name);
     const auto load = scene.model->load_class();
@@ -99,38 +100,38 @@ void check_orders(const char* scene_name, const TwoOrders PracticeScheme::*order
 }
 
 // Drifts of the invariants of a free body, by name.
-std::map<std::string, InvariantSummary> free_drifts(const Catalogue& catalogue, const char* scheme,
-                                                    const Scene& scene, double t_end, long steps) {
-  const RunResult result = run_steps(catalogue, scheme, *scene.model, t_end, steps, 1000);
+std::map<std::string, InvariantSummary> practice_drifts(const Catalogue& catalogue, const char* scheme,
+                                                        const Scene& scene, double t_end, long steps) {
+  const RunResult result = run_practice(catalogue, scheme, *scene.model, t_end, steps, 1000);
   std::map<std::string, InvariantSummary> named;
   for (InvariantSummary& summary : summarise_invariants(*scene.model, result.invariants))
     named[summary.info.name] = summary;
   return named;
 }
 
-double worst(const std::array<double, 2>& error) { return std::max(error[0], error[1]); }
+double larger_error(const std::array<double, 2>& error) { return std::max(error[0], error[1]); }
 
 }  // namespace
 
 TEST_CASE("practice: orders on a free body", "[rotation][practice]") {
-  check_orders("asymmetric-free-top", &PracticeScheme::none, 10.0, 1000);
+  check_practice_orders("asymmetric-free-top", &PracticeScheme::none, 10.0, 1000);
 }
 TEST_CASE("practice: orders with a moment fixed in space", "[rotation][practice]") {
-  check_orders("space-moment", &PracticeScheme::space_moment, 5.0, 500);
+  check_practice_orders("space-moment", &PracticeScheme::space_moment, 5.0, 500);
 }
 TEST_CASE("practice: orders with a moment fixed in the body", "[rotation][practice]") {
-  check_orders("body-moment", &PracticeScheme::body_moment, 5.0, 500);
+  check_practice_orders("body-moment", &PracticeScheme::body_moment, 5.0, 500);
 }
 TEST_CASE("practice: orders with a weight", "[rotation][practice]") {
-  check_orders("asymmetric-heavy-top", &PracticeScheme::gravity, 5.0, 1000);
+  check_practice_orders("asymmetric-heavy-top", &PracticeScheme::gravity, 5.0, 1000);
 }
 
 TEST_CASE("practice: what a free body keeps", "[rotation][practice]") {
   const Catalogue catalogue = practice_catalogue();
   const Scene scene = load_scene(catalogue, "asymmetric-free-top");
-  for (const PracticeScheme& scheme : practice) {
+  for (const PracticeScheme& scheme : practice_schemes) {
     INFO(scheme.name);
-    auto seen = free_drifts(catalogue, scheme.name, scene, 500.0, 10000);
+    auto seen = practice_drifts(catalogue, scheme.name, scene, 500.0, 10000);
     CHECK(seen.at("orthonormality").max_drift <= 1e-14);
     const double momentum = seen.at("angular_momentum").max_drift;
     CHECK((momentum <= 1e-12) == scheme.conserves_momentum);
@@ -150,15 +151,15 @@ TEST_CASE("practice: reversible are two", "[rotation][practice]") {
   const Catalogue catalogue = practice_catalogue();
   const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
   const auto& body = typed<RigidBody<Gravity>>(scene);
-  for (const PracticeScheme& scheme : practice) {
-    const RunResult there = run_steps(catalogue, scheme.name, *scene.model, 10.0, 1000);
+  for (const PracticeScheme& scheme : practice_schemes) {
+    const RunResult there = run_practice(catalogue, scheme.name, *scene.model, 10.0, 1000);
     const auto turned = box(RigidBody<Gravity>(body.inertia(), body.restore(there.state), body.load(), 10.0));
     RunSpec spec;
     spec.t_end = -10.0;
     spec.step = -0.01;
     spec.record = false;
     const RunResult back = run_scheme(catalogue, scheme.name, *turned, spec);
-    const double error = worst(body.distance(body.restore(back.state), body.initial()));
+    const double error = larger_error(body.distance(body.restore(back.state), body.initial()));
     INFO(scheme.name << " " << error);
     CHECK((error <= 1e-11) == scheme.reversible);
     CHECK((error >= 1e-8) == !scheme.reversible);
@@ -169,26 +170,26 @@ TEST_CASE("practice: the production code is what the codes have", "[rotation][pr
   const Catalogue catalogue = practice_catalogue();
   const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
   const auto& body = typed<RigidBody<Gravity>>(scene);
-  const printed::Run run{body, 0.01, 500};
+  const printed_steps::Run run{body, 0.01, 500};
   const auto apart = [&](const char* name, const BodyState& state) {
-    const RunResult result = run_steps(catalogue, name, *scene.model, 5.0, run.n);
-    return worst(body.distance(body.restore(result.state), state));
+    const RunResult result = run_practice(catalogue, name, *scene.model, 5.0, run.n);
+    return larger_error(body.distance(body.restore(result.state), state));
   };
-  CHECK(apart("fincham-leapfrog", printed::fincham(run, true)) <= 1e-12);
-  CHECK(apart("richardson", printed::richardson(run)) <= 1e-12);
-  CHECK(apart("no-squish", printed::no_squish(run)) <= 1e-12);
-  CHECK(apart("buss", printed::buss(run, false)) <= 1e-12);
-  CHECK(apart("buss-augmented", printed::buss(run, true)) <= 1e-12);
-  CHECK(apart("omelyan", printed::omelyan(run)) <= 1e-12);
-  CHECK(apart("spiral-leapfrog", printed::spiral_leapfrog(run)) <= 1e-12);
-  CHECK(apart("spiral-synchronous", printed::spiral_synchronous(run)) <= 1e-12);
-  CHECK(apart("zhao-van-wachem", printed::zhao_van_wachem(run, false)) <= 1e-12);
+  CHECK(apart("fincham-leapfrog", printed_steps::fincham(run, true)) <= 1e-12);
+  CHECK(apart("richardson", printed_steps::richardson(run)) <= 1e-12);
+  CHECK(apart("no-squish", printed_steps::no_squish(run)) <= 1e-12);
+  CHECK(apart("buss", printed_steps::buss(run, false)) <= 1e-12);
+  CHECK(apart("buss-augmented", printed_steps::buss(run, true)) <= 1e-12);
+  CHECK(apart("omelyan", printed_steps::omelyan(run)) <= 1e-12);
+  CHECK(apart("spiral-leapfrog", printed_steps::spiral_leapfrog(run)) <= 1e-12);
+  CHECK(apart("spiral-synchronous", printed_steps::spiral_synchronous(run)) <= 1e-12);
+  CHECK(apart("zhao-van-wachem", printed_steps::zhao_van_wachem(run, false)) <= 1e-12);
   // No two of them are the same.
-  CHECK(apart("buss", printed::buss(run, true)) >= 1e-6);
-  CHECK(apart("fincham-leapfrog", printed::fincham(run, false)) >= 1e-4);
-  CHECK(apart("zhao-van-wachem", printed::zhao_van_wachem(run, true)) >= 1e-4);
-  CHECK(apart("richardson", printed::fincham(run, true)) >= 1e-6);
-  CHECK(apart("spiral-leapfrog", printed::spiral_synchronous(run)) >= 1e-6);
+  CHECK(apart("buss", printed_steps::buss(run, true)) >= 1e-6);
+  CHECK(apart("fincham-leapfrog", printed_steps::fincham(run, false)) >= 1e-4);
+  CHECK(apart("zhao-van-wachem", printed_steps::zhao_van_wachem(run, true)) >= 1e-4);
+  CHECK(apart("richardson", printed_steps::fincham(run, true)) >= 1e-6);
+  CHECK(apart("spiral-leapfrog", printed_steps::spiral_synchronous(run)) >= 1e-6);
 }
 
 TEST_CASE("practice: the quaternion form of Munjiza's scheme is his scheme", "[rotation][practice]") {
@@ -198,7 +199,7 @@ TEST_CASE("practice: the quaternion form of Munjiza's scheme is his scheme", "[r
     const Scene scene = load_scene(catalogue, name);
     INFO(name);
     const auto end = [&](const char* scheme) {
-      return run_steps(catalogue, scheme, *scene.model, 5.0, 100).state;
+      return run_practice(catalogue, scheme, *scene.model, 5.0, 100).state;
     };
     const auto same = scene.model->distance(end("johnson-williams-cook"), end("munjiza"));
     const auto other = scene.model->distance(end("johnson-williams-cook"), end("rkmk4"));
@@ -216,18 +217,25 @@ TEST_CASE("practice: variants in use are of order 1", "[rotation][practice]") {
     std::vector<double> found;
     for (long n : {8000, 16000, 32000})
       found.push_back(
-          body.distance(steps(printed::Run{body, 5.0 / static_cast<double>(n), n}), exact)[metric]);
+          body.distance(steps(printed_steps::Run{body, 5.0 / static_cast<double>(n), n}), exact)[metric]);
     return found;
   };
   for (std::size_t metric : {0, 1}) {
     // The second angular velocity of the leapfrog with the attitude of time t, not of the middle.
-    check_slopes(errors([](const printed::Run& run) { return printed::fincham(run, false); }, metric), 1.0);
-    check_slopes(errors([](const printed::Run& run) { return printed::fincham(run, true); }, metric), 2.0);
+    check_practice_slopes(
+        errors([](const printed_steps::Run& run) { return printed_steps::fincham(run, false); }, metric),
+        1.0);
+    check_practice_slopes(
+        errors([](const printed_steps::Run& run) { return printed_steps::fincham(run, true); }, metric), 2.0);
     // The predictor-corrector with one moment a step.
-    check_slopes(errors([](const printed::Run& run) { return printed::zhao_van_wachem(run, true); }, metric),
-                 1.0);
-    check_slopes(errors([](const printed::Run& run) { return printed::zhao_van_wachem(run, false); }, metric),
-                 2.0);
+    check_practice_slopes(
+        errors([](const printed_steps::Run& run) { return printed_steps::zhao_van_wachem(run, true); },
+               metric),
+        1.0);
+    check_practice_slopes(
+        errors([](const printed_steps::Run& run) { return printed_steps::zhao_van_wachem(run, false); },
+               metric),
+        2.0);
   }
 }
 
@@ -241,13 +249,13 @@ TEST_CASE("practice: end state of the cylinder of the SPIRAL paper", "[rotation]
   for (const char* name : {"spiral-leapfrog", "spiral-synchronous"}) {
     std::vector<double> orientation, velocity;
     for (long n : {4000, 8000, 16000}) {
-      const BodyState end = body.restore(run_steps(catalogue, name, *scene.model, 2.0, n).state);
+      const BodyState end = body.restore(run_practice(catalogue, name, *scene.model, 2.0, n).state);
       orientation.push_back(body.distance(end, published)[0]);
       velocity.push_back((end.angular_momentum.cwiseQuotient(body.inertia()) - w).norm());
     }
     INFO(name << ": orientation " << orientation.back() << " rad, velocity " << velocity.back() << " rad/s");
-    check_slopes(orientation, 2.0);
-    check_slopes(velocity, 3.0);
+    check_practice_slopes(orientation, 2.0);
+    check_practice_slopes(velocity, 3.0);
     CHECK(orientation.back() <= 1e-6);
     CHECK(velocity.back() <= 2e-7);
   }
@@ -257,7 +265,7 @@ TEST_CASE("practice: the commutator term of Buss pays at fast spin only", "[rota
   const Catalogue catalogue = practice_catalogue();
   const auto error = [&](const char* scheme, const Scene& scene, double t_end, long steps,
                          const std::vector<double>& exact) {
-    return scene.model->distance(run_steps(catalogue, scheme, *scene.model, t_end, steps).state, exact)[0];
+    return scene.model->distance(run_practice(catalogue, scheme, *scene.model, t_end, steps).state, exact)[0];
   };
   // Published end state of the fast heavy top, good to six digits.
   const Scene fast = load_scene(catalogue, "fast-heavy-top");
@@ -282,7 +290,7 @@ TEST_CASE("practice: energy in the long run", "[rotation][practice]") {
   const Catalogue catalogue = practice_catalogue();
   const Scene free = load_scene(catalogue, "asymmetric-free-top");
   const auto energy = [&](const char* scheme, double h) {
-    auto seen = free_drifts(catalogue, scheme, free, 1e5 * h, 100000);
+    auto seen = practice_drifts(catalogue, scheme, free, 1e5 * h, 100000);
     return seen.at("energy").max_drift;
   };
   CHECK(energy("omelyan", 0.05) <= 1e-4);
@@ -302,7 +310,7 @@ TEST_CASE("practice: energy in the long run", "[rotation][practice]") {
       if (summary.info.name == "energy") return summary.max_drift > 1.0;
     return false;
   };
-  for (const PracticeScheme& scheme : practice) {
+  for (const PracticeScheme& scheme : practice_schemes) {
     INFO(scheme.name);
     CHECK(blows_up(scheme.name) == (std::string_view(scheme.name) == "zhao-van-wachem"));
   }

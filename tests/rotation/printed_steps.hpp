@@ -7,7 +7,7 @@
 
 #include "models/rigid_body/rigid_body.hpp"
 
-namespace gnomon::test::printed {
+namespace gnomon::test::printed_steps {
 
 using Body = rigid_body::RigidBody<rigid_body::Gravity>;
 using Eigen::Matrix3d;
@@ -205,4 +205,4 @@ struct Run {
   return {q.toRotationMatrix(), I.cwiseProduct(w)};
 }
 
-}  // namespace gnomon::test::printed
+}  // namespace gnomon::test::printed_steps
