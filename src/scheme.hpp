@@ -45,12 +45,12 @@ struct SchemeInfo {
   Stepping stepping = Stepping::fixed;
   int stages = 0;                         ///< evaluations of the rates a step; 0 where it varies
   std::array<DeclaredOrder, 4> orders{};  ///< empty entries have an empty load class
-  /// Of the angular momentum of a body, where they differ from those of its orientation.
-  std::array<DeclaredOrder, 4> momentum_orders{};
-  bool reversible = false;          ///< a step back undoes a step, to roundoff
-  bool conserves_energy = false;    ///< of a body or beam without load, to roundoff
-  bool conserves_momentum = false;  ///< likewise
-  bool control = false;             ///< a negative control: only run when asked for by name
+  bool reversible = false;                ///< a step back undoes a step, to roundoff
+  bool conserves_energy = false;          ///< of a body or beam without load, to roundoff
+  bool conserves_momentum = false;        ///< likewise
+  bool control = false;                   ///< a negative control: only run when asked for by name
+  /// Orders of the angular momentum of a body, where they differ from those of its orientation.
+  std::array<DeclaredOrder, 2> momentum_orders{};
 
   constexpr std::optional<double> order_for(std::string_view load_class) const {
     for (const DeclaredOrder& declared : orders)

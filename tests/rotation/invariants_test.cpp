@@ -126,11 +126,13 @@ TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 steps"
         if (!catalogue.pair(info.name, *scene.model)) continue;
         INFO(info.name << " on " << name << ", h = " << h);
         const Summaries seen = invariants(catalogue, info.name, *scene.model, fixed_step(1e5 * h, h));
-        // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude.
-        const double low = info.conserves_momentum ? 1e-15 : 1e-9,
-                     high = info.conserves_momentum ? 1e-12 : 1.0;
-        CHECK(within(seen.at("momentum_norm").max_drift, low, high));
-        CHECK(within(seen.at("angular_momentum").max_drift, low, high));
+        // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude. It may well
+        // be kept to the last bit, or |m| alone be kept, as by Omelyan's leapfrog on a symmetric body.
+        const double norm = seen.at("momentum_norm").max_drift,
+                     momentum = seen.at("angular_momentum").max_drift;
+        INFO("|m| " << norm << ", H " << momentum);
+        if (info.conserves_momentum) CHECK(std::max(norm, momentum) <= 1e-12);
+        if (!info.conserves_momentum && h == 0.1) CHECK(momentum >= 1e-9);
         CHECK(within(seen.at("orthonormality").max_drift, 1e-15, 1e-12));
       }
     }
