@@ -111,7 +111,40 @@ std::map<std::string, InvariantSummary> practice_drifts(const Catalogue& catalog
 
 double larger_error(const std::array<double, 2>& error) { return std::max(error[0], error[1]); }
 
+// A heavy top that counts how often its moment is asked for.
+struct CountingTop : RigidBody<Gravity> {
+  explicit CountingTop(const RigidBody<Gravity>& body) : RigidBody<Gravity>(body) {}
+  Eigen::Vector3d moment(double t, const Eigen::Matrix3d& attitude) const {
+    ++asked;
+    return RigidBody<Gravity>::moment(t, attitude);
+  }
+  mutable long asked = 0;
+};
+
+template <class S>
+[[gnu::noinline]] void check_moments(const RigidBody<Gravity>& body, long a_step) {
+  const CountingTop top(body);
+  auto state = S::start(top, top.initial());
+  for (long k = 0; k < 50; ++k)
+    REQUIRE(S::step(top, state, 0.01 * static_cast<double>(k), 0.01) == Status::ok);
+  INFO(S::info.name << ": " << top.asked << " moments in 50 steps");
+  CHECK(top.asked == S::cost(top, state, 50).moments);
+  CHECK(top.asked / 50 == a_step);
+  CHECK(S::cost(body, S::start(body, body.initial()), 0).moments <= 1);
+}
+
+template <class... S>
+void check_all_moments(const RigidBody<Gravity>& body, TypeList<S...>) {
+  (check_moments<S>(body, S::info.name == "zhao-van-wachem" ? 2 : 1), ...);
+}
+
 }  // namespace
+
+TEST_CASE("practice: one moment a step, two of the predictor-corrector", "[rotation][practice]") {
+  const Catalogue catalogue = practice_catalogue();
+  const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
+  check_all_moments(typed<RigidBody<Gravity>>(scene), rotation::DiscreteElementSchemes{});
+}
 
 TEST_CASE("practice: orders on a free body", "[rotation][practice]") {
   check_practice_orders("asymmetric-free-top", &PracticeScheme::none, 10.0, 1000);
