@@ -49,11 +49,20 @@ struct SchemeInfo {
   bool conserves_energy = false;          ///< of a body or beam without load, to roundoff
   bool conserves_momentum = false;        ///< likewise
   bool control = false;                   ///< a negative control: only run when asked for by name
+  /// Orders of the angular momentum of a body, where they differ from those of its orientation.
+  std::array<DeclaredOrder, 2> momentum_orders{};
 
   constexpr std::optional<double> order_for(std::string_view load_class) const {
     for (const DeclaredOrder& declared : orders)
       if (!declared.load_class.empty() && declared.load_class == load_class) return declared.order;
     return std::nullopt;
+  }
+  /// The same in one class of error, by its name.
+  constexpr std::optional<double> order_for(std::string_view load_class, std::string_view metric) const {
+    if (metric == "momentum")
+      for (const DeclaredOrder& declared : momentum_orders)
+        if (!declared.load_class.empty() && declared.load_class == load_class) return declared.order;
+    return order_for(load_class);
   }
 };
 

@@ -1,4 +1,5 @@
 #include "integrators/catalogue.hpp"
+#include "integrators/rotation/discrete_element.hpp"
 #include "integrators/rotation/exact_free_top.hpp"
 #include "integrators/rotation/exact_heavy_symmetric_top.hpp"
 #include "integrators/rotation/families.hpp"
@@ -16,6 +17,7 @@ void add_rotation_schemes(Catalogue& catalogue) {
   add_high_moser_veselov_splittings(catalogue);
   add_second_order_schemes(catalogue);
   add_explicit_schemes(catalogue);
+  add_discrete_element_schemes(catalogue);
   add_schemes<RigidBodies>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});
 }
 

@@ -70,6 +70,9 @@ std::string orders_of(const SchemeInfo& scheme) {
   for (const DeclaredOrder& declared : scheme.orders)
     if (!declared.load_class.empty())
       text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", declared.load_class, declared.order);
+  for (const DeclaredOrder& declared : scheme.momentum_orders)
+    if (!declared.load_class.empty())
+      text += fmt::format(", momentum: {} {:g}", declared.load_class, declared.order);
   return text.empty() ? "variable" : text;
 }
 

@@ -38,7 +38,7 @@ OrderRow observe(const Convergence& study, const SchemeInfo& scheme, std::size_t
   options.scale = info.saturation;
   if (!study.reference.bounds.empty()) options.bound = study.reference.bounds.back()[metric];
   return {&scheme, std::string(info.name), observe_order(points, options),
-          scheme.order_for(study.scene.model->load_class())};
+          scheme.order_for(study.scene.model->load_class(), info.name)};
 }
 
 }  // namespace

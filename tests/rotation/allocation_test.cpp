@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "integrators/rotation/discrete_element.hpp"
 #include "integrators/rotation/families.hpp"
 #include "src/run.hpp"
 #include "tests/catch.hpp"
@@ -33,6 +34,7 @@ void for_each_scheme(Body&& body) {
   for_each(rotation::HighMoserVeselovSplittings{}, body);
   for_each(rotation::SecondOrderSchemes{}, body);
   for_each(rotation::ExplicitSchemes{}, body);
+  for_each(rotation::DiscreteElementSchemes{}, body);
 }
 
 // Allocations of 1000 steps in the driver's inner loop.

@@ -135,15 +135,12 @@ void check_momentum_and_orthonormality(double h) {
       const double norm = seen.at("momentum_norm").max_drift,
                    momentum = seen.at("angular_momentum").max_drift;
       INFO(info.name << " on " << name << ", h = " << h << ": " << norm << ", " << momentum);
-      // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude. Where that is
-      // a unit quaternion, it is a few units in the last place off. The others lose momentum.
+      // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude. It may well be kept
+      // to the last bit, or |m| alone be kept, as by Omelyan's leapfrog on a symmetric body.
       if (info.conserves_momentum) {
-        const bool matrix = info.name.starts_with("munjiza") || info.name == "rkmk4";
-        CHECK(within(norm, matrix ? 1e-15 : 2e-16, 1e-12));
-        CHECK(within(momentum, 1e-15, 1e-12));
-      } else {
-        CHECK(within(norm, 1e-14, 1.0));
-        CHECK(within(momentum, 5e-12, 1.0));
+        CHECK(std::max(norm, momentum) <= 1e-12);
+      } else if (h == 0.1) {
+        CHECK(momentum >= 1e-9);
       }
       CHECK(within(seen.at("orthonormality").max_drift, 1e-15, 1e-12));
     }
@@ -169,12 +166,12 @@ TEST_CASE("schemes: without a moment a splitting is its drift", "[rotation][spli
 }
 
 TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 small steps",
-          "[rotation][invariants]") {
+          "[rotation][invariants][long]") {
   check_momentum_and_orthonormality(0.01);
 }
 
 TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 large steps",
-          "[rotation][invariants]") {
+          "[rotation][invariants][long]") {
   check_momentum_and_orthonormality(0.1);
 }
 
