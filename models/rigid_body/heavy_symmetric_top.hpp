@@ -67,7 +67,9 @@ class HeavySymmetricTop {
 
     const Real to_third = y3 - y1, k1 = std::sqrt(std::max(Real(0), (y3 - y2) / to_third));
     lambda_ = std::sqrt(torque * to_third / (2 * i1_));
-    jacobi_ = JacobiFunctions<Real>(std::sqrt(range_ / to_third), k1);
+    modulus_square_ = range_ / to_third;
+    k1_ = k1;
+    jacobi_ = JacobiFunctions<Real>(std::sqrt(modulus_square_), k1);
     const JacobiValues<Real> v{std::copysign(std::sqrt(-y1 / range_), slope), std::sqrt(y2 / range_),
                                std::sqrt(y3 / to_third)};
     u0_ = jacobi_argument(v);
@@ -150,8 +152,13 @@ class HeavySymmetricTop {
   }
 
   // Integrals from 0 to u, |u| <= K.
+  // A sum of positive terms (M. Abramowitz, I.A. Stegun, 17.7.15), unlike the integral with n < 0 itself.
   Real up_integral(const JacobiValues<Real>& v, Real u) const {
-    return third_kind(v, u, -range_ / up_.least, std::sqrt((up_.least + range_) / up_.least)) / up_.least;
+    const Real a = up_.least, most = a + range_, b = modulus_square_ * a + range_;
+    const Real other = third_kind(v, u, b / most, k1_ * std::sqrt(a / most));
+    return (k1_ * k1_ * (range_ / most) * other + modulus_square_ * u) / b +
+           std::sqrt(range_ / (a * b * most)) *
+               std::atan(std::sqrt(range_ * b / (a * most)) * v.sn * v.cn / v.dn);
   }
   Real down_integral(const JacobiValues<Real>& v, Real u) const {
     const Real most = down_.least + range_;
@@ -208,7 +215,7 @@ class HeavySymmetricTop {
   Component up_, down_;
   Real range_{}, lambda_{};  // z2 - z1
   JacobiFunctions<Real> jacobi_{Real(0), Real(1)};
-  Real u0_{};
+  Real modulus_square_{}, k1_{}, u0_{};
 };
 
 }  // namespace gnomon::rigid_body

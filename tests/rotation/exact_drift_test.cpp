@@ -97,7 +97,7 @@ TEST_CASE("schemes: the exact drift over long steps and short ones", "[rotation]
     const double error = angle_between(by, closed_form(inertia, m, tau)),
                  turned = m.norm() / 0.6 * std::abs(tau);
     INFO("error " << error << " over " << turned << " rad");
-    CHECK(error <= 20.0 * rounding * turned);
+    CHECK(error <= 0.2 * rounding * turned * turned);  // the rounding errors of many pieces shift the rates
     CHECK(error >= 0.01 * rounding * turned);
   }
   // Pieces of any length make the whole.
