@@ -16,6 +16,7 @@ void add_rotation_schemes(Catalogue& catalogue) {
   add_high_moser_veselov_splittings(catalogue);
   add_second_order_schemes(catalogue);
   add_explicit_schemes(catalogue);
+  add_lanes_schemes(catalogue);
   add_schemes<Models>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});
 }
 
