@@ -2,6 +2,7 @@
 #include "integrators/rotation/exact_free_top.hpp"
 #include "integrators/rotation/exact_heavy_symmetric_top.hpp"
 #include "integrators/rotation/families.hpp"
+#include "integrators/rotation/munjiza_kernel.hpp"
 #include "models/catalogue.hpp"
 
 namespace gnomon {
@@ -18,6 +19,7 @@ void add_rotation_schemes(Catalogue& catalogue) {
   add_explicit_schemes(catalogue);
   add_lanes_schemes(catalogue);
   add_schemes<Models>(catalogue, TypeList<ExactFreeTop, ExactHeavySymmetricTop>{});
+  catalogue.yardsticks.push_back(munjiza_kernel_yardstick);
 }
 
 }  // namespace gnomon

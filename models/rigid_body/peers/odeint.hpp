@@ -21,11 +21,9 @@ struct OdeintRuns {
   PlainRun fehlberg78;
 };
 
-// One object file each. None where the compiler did not make it for the instruction set it is named after.
+// One object file each; null where it was not compiled for the set it is named after.
 const OdeintRuns* odeint_baseline();
 const OdeintRuns* odeint_avx2();
 const OdeintRuns* odeint_avx512();
-/// Those for the widest registers that this processor has.
-const OdeintRuns& odeint();
 
 }  // namespace gnomon::rigid_body
