@@ -21,13 +21,13 @@ struct Turn {
       return;
     }
     const double q2 = q * q, q4 = q2 * q2;
-    s = ((1.0 - q / 6) + (1.0 / 120 - q / 5040) * q2) +
-        (((1.0 / 362880 - q / 39916800) + (1.0 / 6227020800 - q / 1307674368000) * q2) +
-         q4 / 355687428096000) *
+    s = ((1.0 - q * (1.0 / 6)) + (1.0 / 120 - q * (1.0 / 5040)) * q2) +
+        (((1.0 / 362880 - q * (1.0 / 39916800)) + (1.0 / 6227020800 - q * (1.0 / 1307674368000)) * q2) +
+         q4 * (1.0 / 355687428096000)) *
             q4;
-    c = ((0.5 - q / 24) + (1.0 / 720 - q / 40320) * q2) +
-        (((1.0 / 3628800 - q / 479001600) + (1.0 / 87178291200 - q / 20922789888000) * q2) +
-         q4 / 6402373705728000) *
+    c = ((0.5 - q * (1.0 / 24)) + (1.0 / 720 - q * (1.0 / 40320)) * q2) +
+        (((1.0 / 3628800 - q * (1.0 / 479001600)) + (1.0 / 87178291200 - q * (1.0 / 20922789888000)) * q2) +
+         q4 * (1.0 / 6402373705728000)) *
             q4;
   }
   void apply(double sign, const double* a, double* out) const {
@@ -85,7 +85,7 @@ double run(const void* model, double t_end, double step, std::vector<double>& st
   const double begin = thread_cpu_seconds();
   march(kernel, steps, t_end / static_cast<double>(steps));
   const double seconds = thread_cpu_seconds() - begin;
-  const Vector3 momentum = start.attitude * start.angular_momentum;
+  const Eigen::Vector3d momentum = start.attitude * start.angular_momentum;
   for (int k = 0; k < 9; ++k) start.attitude(k / 3, k % 3) = kernel.A[k];
   start.angular_momentum = start.attitude.transpose() * momentum;
   state = body.flatten(start);
