@@ -145,17 +145,11 @@ TEST_CASE("lanes: the columns of the extrapolation have orders 2, 4, 6, ..", "[r
       REQUIRE(halved > 1e-14);
       CHECK(std::abs(std::log2(coarse / halved) - (2.0 * columns + 1.0)) <= 0.35);
     }
-    // The weights are the last column's, and the defect its difference from the one without the first row.
+    // The weights are the last column's, and the defect its difference from the one without the last row.
     const lanes::Rows rows = rows_of(lanes::widest_kernels(), rule, c, sequence, 1.5);
     const lanes::Extrapolated result = step_of(lanes::widest_kernels(), rule, c, 1.5);
     CHECK(apart(result.value, column(rows, sequence, 8).data()) <= 1e3 * eps);
-    lanes::Rows later = rows;
-    lanes::Sequence rest = sequence;
-    for (int j = 0; j < 7; ++j) {
-      rest.steps[j] = sequence.steps[j + 1];
-      for (auto& values : later.value) values[j] = values[j + 1];
-    }
-    const Numbers before = column(later, rest, 7);
+    const Numbers before = column(rows, sequence, 7);
     double defect[7];
     for (std::size_t k = 0; k < 7; ++k) defect[k] = result.value[k] - before[k];
     CHECK(apart(result.defect, defect) <= 1e3 * eps);
@@ -181,7 +175,7 @@ TEST_CASE("lanes: the defect covers the error", "[rotation][lanes]") {
       const double error = apart(result.value, exact.data()), defect = apart(result.defect, zero.data());
       if (!(defect < 1e-2)) continue;
       INFO("rule " << static_cast<int>(rule) << ", H " << H << ", error " << error << ", defect " << defect);
-      CHECK(error <= defect + 300.0 * eps);
+      CHECK(error <= defect + 2e-13);
       if (defect > 1e-11) {
         ++seen;
         loosest = std::max(loosest, error / defect);
@@ -228,7 +222,7 @@ TEST_CASE("lanes: the error follows the tolerance", "[rotation][lanes]") {
                 << result.cost.rejected);
       CHECK(error <= 100.0 * tol + 1e-10);
       CHECK(result.cost.rejected <= result.cost.steps / 2 + 4);
-      if (before > 0.0) CHECK((error <= before || error <= 1e-10));
+      if (before > 0.0) CHECK(error <= std::max(before, 10.0 * tol + 1e-11));
       if (first == 0.0) first = error;
       before = last = error;
     }

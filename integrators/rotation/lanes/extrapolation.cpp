@@ -77,7 +77,7 @@ class MidpointBody {
     return w.norm() + own_rate_;
   }
   /// The first step times that rate, for a tolerance of 1.
-  static constexpr double first_step = 9.0;
+  static constexpr double first_step = 8.0;
   static constexpr double most_turn = std::numeric_limits<double>::infinity();
 
   State inner(double, const State& y) const { return y; }
@@ -116,7 +116,7 @@ class StrangTop {
   double rate(const State& y) const {
     return 2.0 * top_.half_inverse_inertia * Vector3(y[4], y[5], y[6]).norm() + own_rate_;
   }
-  static constexpr double first_step = 30.0;
+  static constexpr double first_step = 28.0;
   /// The most that a substep turns [rad]: the series of the drift are good to 1e-12 there.
   static constexpr double most_turn = 5.0;
 
@@ -209,8 +209,10 @@ class Extrapolation final : public AdaptiveSolver {
     Extrapolated result;
     for (;;) {
       const double left = t_stop - t_;
-      const double limit = Stepper::most_turn * stepper_.sequence().first / stepper_.rate(inner_);
-      const double parts = std::max(1.0, std::ceil(left / std::min(next_, limit) - 1e-9));
+      double longest = next_;
+      if constexpr (Stepper::most_turn < std::numeric_limits<double>::infinity())
+        longest = std::min(longest, Stepper::most_turn * stepper_.sequence().first / stepper_.rate(inner_));
+      const double parts = std::max(1.0, std::ceil(left / longest - 1e-9));
       const double H = left / parts;
       if (!(std::abs(H) > 1e-14 * std::abs(t_)) && parts > 1.0) {
         message_ = fmt::format("the step became too small at t = {:.6g} s", t_);
@@ -218,8 +220,10 @@ class Extrapolation final : public AdaptiveSolver {
       }
       stepper_.step(inner_, H, result);
       const double error = estimate(result) / allowed_;
-      const double factor =
-          error > 0.0 ? std::clamp(safety * std::pow(error, -exponent), 0.1, growth_) : growth_;
+      // Single precision is enough for a step's length.
+      const float wanted =
+          std::pow(static_cast<float>(std::clamp(error, 1e-30, 1e30)), -static_cast<float>(exponent));
+      const double factor = std::clamp(safety * static_cast<double>(wanted), 0.1, growth_);
       next_ = H * (std::isfinite(error) ? factor : 0.1);
       if (error <= 1.0) {
         accept(result);

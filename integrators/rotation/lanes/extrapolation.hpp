@@ -28,8 +28,10 @@ class BodySystem : public FirstOrderSystem {
 /// registers, extrapolated in the square of the step to order 16. Heavy symmetric tops are stepped by kicks
 /// and exact drifts, other bodies by the explicit midpoint rule.
 ///
-/// The estimated error of a step is the difference from the column of order 14: the larger of the angle [rad]
-/// and the momentum over its scale is kept below spec.tol. Orientations are normalised after each step.
+/// The estimated error of a step is the difference from what all but the greatest count give, of order 14.
+/// (To leave out the least count instead would show less than the error where that count is too coarse to
+/// matter.) The larger of the angle [rad] and the momentum over its scale is kept below spec.tol.
+/// Orientations are normalised after each step.
 std::unique_ptr<AdaptiveSolver> make_extrapolation(const BodySystem& system, const RunSpec& spec,
                                                    const Kernels& kernels = widest_kernels());
 

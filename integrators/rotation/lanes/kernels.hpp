@@ -7,7 +7,7 @@ namespace gnomon::rotation::lanes {
 inline constexpr int count = 8;
 
 /// The step counts of a step H, ascending; their inverses; and the weights, by powers of (H/n)^2, of the
-/// value extrapolated from all counts and of its difference from the one that leaves the first count out.
+/// value extrapolated from all counts and of its difference from the one that leaves the last count out.
 struct alignas(64) Sequence {
   double steps[count];
   double inverse[count];

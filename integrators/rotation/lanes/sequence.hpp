@@ -9,9 +9,9 @@ namespace gnomon::rotation::lanes {
 /// polynomial in h^2 through all points h = H/n, by Lagrange (the limit of the Aitken-Neville table).
 constexpr Sequence sequence_of(const std::array<int, count>& steps) {
   Sequence sequence{};
-  const auto weight = [&](int j, int from) {
+  const auto weight = [&](int j, int rows) {
     double product = 1.0;
-    for (int i = from; i < count; ++i)
+    for (int i = 0; i < rows; ++i)
       if (i != j) {
         const double a = steps[static_cast<std::size_t>(j)], b = steps[static_cast<std::size_t>(i)];
         product *= a * a / (a * a - b * b);
@@ -21,8 +21,8 @@ constexpr Sequence sequence_of(const std::array<int, count>& steps) {
   for (int j = 0; j < count; ++j) {
     sequence.steps[j] = steps[static_cast<std::size_t>(j)];
     sequence.inverse[j] = 1.0 / sequence.steps[j];
-    sequence.weight[j] = weight(j, 0);
-    sequence.defect_weight[j] = sequence.weight[j] - (j > 0 ? weight(j, 1) : 0.0);
+    sequence.weight[j] = weight(j, count);
+    sequence.defect_weight[j] = sequence.weight[j] - (j < count - 1 ? weight(j, count - 1) : 0.0);
   }
   sequence.first = steps.front();
   sequence.last = steps.back();
