@@ -1,6 +1,7 @@
 #include "models/catalogue.hpp"
 
 #include "models/planar_beam/read.hpp"
+#include "models/rigid_body/peers/peers.hpp"
 #include "models/rigid_body/read.hpp"
 #include "models/rigid_body/yardstick.hpp"
 
@@ -15,6 +16,7 @@ void add_models(Catalogue& catalogue) {
   catalogue.scene_folders.push_back(root + "planar_beam/scenes");
   catalogue.study_files.push_back(root + "planar_beam/study.toml");
   catalogue.yardsticks.push_back(rigid_body::plain_cvode_yardstick);
+  rigid_body::add_peers(catalogue);
   add_model_types(catalogue, Models{});
 }
 

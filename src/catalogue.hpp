@@ -51,15 +51,28 @@ struct Library {
 };
 
 /// An integration written without gnomon that one of its integrators is held against, on the same scene and
-/// tolerance.
+/// with the same tolerance or step.
 struct Yardstick {
   std::string_view name;
   std::string_view summary;
   std::string_view scene;
   std::string_view integrator;
-  double tol;
-  /// Integrates the scene's model to t_end; returns thread CPU seconds (negative on failure), flattened final
-  /// state and number of evaluations.
+  double tol;         ///< 0 where it takes equal steps
+  double step = 0.0;  ///< s
+  /// Integrates the scene's model to t_end by the tolerance or step; returns thread CPU seconds (negative on
+  /// failure), flattened final state and number of evaluations.
+  double (*run)(const void* model, double t_end, double setting, std::vector<double>& state,
+                long& evaluations);
+  double setting() const { return tol > 0.0 ? tol : step; }
+};
+
+/// An integrator of another library, called as its users would, that ours are timed against on models of one
+/// type.
+struct Peer {
+  std::string_view name;
+  std::string_view summary;
+  std::type_index model_type;
+  /// As in Yardstick.
   double (*run)(const void* model, double t_end, double tol, std::vector<double>& state, long& evaluations);
 };
 
@@ -87,6 +100,7 @@ struct Catalogue {
   std::vector<Pair> pairs;
   std::vector<Library> libraries;
   std::vector<Yardstick> yardsticks;
+  std::vector<Peer> peers;
   std::vector<ReferenceSolver> reference_solvers;  ///< independent of one another
   std::vector<std::string> study_files;            ///< what `bench` does with each model
   /// Number of model types of a model, to tell whether a scheme runs all of them.

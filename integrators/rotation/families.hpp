@@ -34,5 +34,6 @@ void add_moser_veselov_splittings(Catalogue& catalogue);
 void add_high_moser_veselov_splittings(Catalogue& catalogue);
 void add_second_order_schemes(Catalogue& catalogue);
 void add_explicit_schemes(Catalogue& catalogue);
+void add_lanes_schemes(Catalogue& catalogue);
 
 }  // namespace gnomon::rotation

@@ -12,10 +12,12 @@ struct Variant {
 };
 
 /// The state of the scheme: the triad (i, j, k) as the columns of A, and the spatial angular momentum H = A I
-/// A^T w.
+/// A^T w. Without a moment y = A^T H is turned from step to step, so that a step need not wait for the triad
+/// of the one before; with one it is not used.
 struct TriadState {
   Matrix3 attitude;
   Vector3 momentum;
+  Vector3 body_momentum;
 };
 
 /// Steps 1-7 of A. Munjiza, The Combined Finite-Discrete Element Method (Wiley 2004), section 5.6, eqs.
@@ -31,7 +33,7 @@ struct TriadStep {
 
   template <RotationForm M>
   static TriadState start(const M&, const typename M::State& state) {
-    return {state.attitude, state.attitude * state.angular_momentum};
+    return {state.attitude, state.attitude * state.angular_momentum, state.angular_momentum};
   }
 
   /// The momentum in the body frame is taken through the attitude, so that its error shows that of the
@@ -63,7 +65,7 @@ struct TriadStep {
       return A.transpose() * model.moment(time, A * stage);
     };
 
-    const Vector3 y = A.transpose() * state.momentum;
+    const Vector3 y = M::has_moment ? Vector3(A.transpose() * state.momentum) : state.body_momentum;
     Vector3 y2 = y, y3 = y, y4 = y, k1 = Vector3::Zero(), k2 = k1, k3 = k1;
     if constexpr (M::has_moment) {
       k1 = A.transpose() * model.moment(t, A);
@@ -97,7 +99,9 @@ struct TriadStep {
     }
     Vector3 p = (h / 6.0) * (w1 + 2.0 * (w2 + w3) + w4);                    // (5.89), (5.90)
     if constexpr (variant.commutators) p -= (h * h / 12.0) * w1.cross(w4);  // Munthe-Kaas, left action
-    state.attitude = A * Rotation(p).matrix();                              // (5.91)
+    const Rotation whole(p);
+    if constexpr (!M::has_moment) state.body_momentum = whole.inverse(y);
+    state.attitude = A * whole.matrix();  // (5.91)
     return Status::ok;
   }
 };

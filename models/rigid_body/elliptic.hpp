@@ -59,6 +59,12 @@ class JacobiFunctions {
   /// K, the quarter period; infinite for k1 = 0.
   Real quarter_period() const { return quarter_period_; }
 
+  /// Whether the nome is that of k1, the lesser one: then series run in cosh and sinh of scale() u, else in
+  /// cos and sin of it. log_nome() is the logarithm of that nome.
+  bool hyperbolic() const { return hyperbolic_; }
+  Real scale() const { return scale_; }
+  Real log_nome() const { return log_nome_; }
+
   /// sn u, cn u, dn u for |u| <= K.
   JacobiValues<Real> at(Real u) const {
     if (2 * std::abs(u) <= quarter_period_) return near_zero(u);
@@ -153,5 +159,71 @@ long double elliptic_j(const JacobiValues<Real>& v, Real root) {
   const Wide p = cn * cn + (root * sn) * (root * sn);
   return sn * sn * sn * boost::math::ellint_rj(cn * cn, dn * dn, Wide(1), p) / 3;
 }
+
+/// The argument of theta_1(z + i alpha), z = pi u/(2 K), alpha = pi a/(2 K), 0 < a < K', up to a linear
+/// function of u. Integrals of the third kind whose integrand has its poles at u = +-i a are of this form (C.
+/// G. J. Jacobi; E. T. Whittaker, G. N. Watson, A Course of Modern Analysis, section 22.74). Where the nome
+/// is that of k1 the function is taken by Jacobi's transformation (DLMF 20.7.30), the factor of which has a
+/// linear argument.
+template <class Real>
+class ThetaArgument {
+ public:
+  /// The argument is pi/2 - atan2(x, y).
+  struct Parts {
+    Real x, y;
+  };
+
+  ThetaArgument() = default;
+  ThetaArgument(const JacobiFunctions<Real>& jacobi, Real a)
+      : hyperbolic_(jacobi.hyperbolic()), scale_(jacobi.scale()), log_nome_(jacobi.log_nome()) {
+    const Real alpha = scale_ * a;
+    Real sign = 1;
+    for (int n = 0; n < 4; ++n, sign = -sign) {
+      const Real power = n * (n + 1) * log_nome_;  // of the nome
+      if (hyperbolic_) {
+        // Their factors cosh and sinh need the power themselves.
+        even_[n] = sign * std::cos((2 * n + 1) * alpha);
+        odd_[n] = sign * std::sin((2 * n + 1) * alpha);
+      } else {
+        const Real up = n > 0 ? std::exp(power + 2 * n * alpha) : Real(1);
+        const Real down = std::exp((n > 0 ? power : Real(0)) - (2 * n + 2) * alpha);
+        even_[n] = sign * (up + down);
+        odd_[n] = sign * (up - down);
+      }
+    }
+  }
+
+  /// For |u| <= K.
+  Parts at(Real u) const { return hyperbolic_ ? hyperbolic(u) : circular(u); }
+
+ private:
+  Parts circular(Real u) const {
+    const Real s = std::sin(scale_ * u), c = std::cos(scale_ * u);
+    const Real s2 = 2 * s * c, c2 = (c - s) * (c + s);
+    const Real s3 = s2 * c + c2 * s, c3 = c2 * c - s2 * s, s5 = s2 * c3 + c2 * s3, c5 = c2 * c3 - s2 * s3;
+    const Real s7 = s2 * c5 + c2 * s5, c7 = c2 * c5 - s2 * s5;
+    return {((even_[3] * s7 + even_[2] * s5) + even_[1] * s3) + even_[0] * s,
+            ((odd_[3] * c7 + odd_[2] * c5) + odd_[1] * c3) + odd_[0] * c};
+  }
+  // Both parts over exp|v|, so that nothing overflows.
+  Parts hyperbolic(Real u) const {
+    const Real v = scale_ * std::abs(u);
+    const Real e = std::exp(-2 * v), q = std::exp(log_nome_);
+    const Real r = q > 0 ? std::exp(log_nome_ + 2 * v) : Real(0);  // q e^(2 v) <= 1
+    // q^(n (n + 1)) e^(2 n v) = q^(n^2) r^n
+    const Real q2 = q * q, q4 = q2 * q2;
+    const Real t1 = q * r, t2 = q4 * r * r, t3 = q4 * q4 * q * r * r * r;
+    const Real e2 = e * e, e3 = e2 * e, e5 = e3 * e2, e7 = e5 * e2;
+    const Real x = ((even_[3] * t3 * (1 - e7) + even_[2] * t2 * (1 - e5)) + even_[1] * t1 * (1 - e3)) -
+                   even_[0] * std::expm1(-2 * v);
+    const Real y =
+        ((odd_[3] * t3 * (1 + e7) + odd_[2] * t2 * (1 + e5)) + odd_[1] * t1 * (1 + e3)) + odd_[0] * (1 + e);
+    return {std::copysign(x, u), y};
+  }
+
+  bool hyperbolic_ = false;
+  Real scale_{}, log_nome_{};
+  Real even_[4]{}, odd_[4]{};
+};
 
 }  // namespace gnomon::rigid_body

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "models/rigid_body/elliptic.hpp"
@@ -239,16 +240,46 @@ class ExactFreeTop {
     g_over_a_ = magnitude_ / amplitude_a;
     psi_rate_ = magnitude_ / (r2_ <= 1 ? i_c : i_a);
     const Real quarter = jacobi_.quarter_period();
+    psi_half_period_ =
+        std::isfinite(quarter) ? 2 * psi_by_integral({Real(1), Real(0), k1_}, quarter) : Real(0);
+    if constexpr (by_theta) prepare_theta();
     psi_start_ = psi_periodic(start, u0_);
-    psi_half_period_ = std::isfinite(quarter) ? 2 * psi_periodic({Real(1), Real(0), k1_}, quarter) : Real(0);
     base_ = initial_.orientation * to_axis(m).conjugate();
+  }
+
+  // In double precision psi is taken from a theta function, at half the cost of the integral of the third
+  // kind; in extended precision, which references are made in, from the integral itself.
+  static constexpr bool by_theta = std::is_same_v<Real, double>;
+
+  // 1 + r^2 sn^2 is zero at i a.
+  void prepare_theta() {
+    if (!(k1_ > 0) || !(r2_ > 0)) return;
+    const Real over = 1 / (1 + r2_);
+    theta_ = ThetaArgument<Real>(jacobi_,
+                                 jacobi_argument(JacobiValues<Real>{std::sqrt(over), std::sqrt(r2_ * over),
+                                                                    std::sqrt((r2_ + k_ * k_) * over)}));
+    const Real quarter = jacobi_.quarter_period();
+    const auto end = theta_.at(quarter);
+    theta_slope_ =
+        (psi_half_period_ / 2 + std::atan2(jacobi_.hyperbolic() ? end.y : Real(0), end.x)) / quarter;
+  }
+
+  Real psi_periodic(const JacobiValues<Real>& v, Real u) const {
+    if constexpr (by_theta)
+      if (k1_ > 0 && r2_ > 0) {
+        const auto theta = theta_.at(u);
+        const Real turned = b_over_c_ * v.sn;
+        return theta_slope_ * u +
+               std::atan2(theta.x * v.cn - theta.y * turned, theta.y * v.cn + theta.x * turned);
+      }
+    return psi_by_integral(v, u);
   }
 
   // The part of psi other than psi_rate t, without its sign, from 0 to u, |u| <= K. The integral of the third
   // kind Pi(-r^2; u) = u - r^2 J(u) is used through J for r <= 1, its part u going into psi_rate; for r > 1,
   // where u and r^2 J nearly cancel, through Pi of the other characteristic (DLMF 19.7.9), all of whose terms
   // are positive.
-  Real psi_periodic(const JacobiValues<Real>& v, Real u) const {
+  Real psi_by_integral(const JacobiValues<Real>& v, Real u) const {
     const Real angle = std::atan2(b_over_c_ * v.sn, v.cn);
     if (r2_ <= 1) {
       const Real r = std::sqrt(r2_);
@@ -294,6 +325,8 @@ class ExactFreeTop {
   Vector3 amplitude_ = Vector3::Zero();
   Real r2_{}, b_over_c_{1}, g_over_a_{1};
   Real psi_sign_{1}, psi_rate_{}, psi_start_{}, psi_half_period_{};
+  ThetaArgument<Real> theta_;
+  Real theta_slope_{};
   Quaternion base_ = Quaternion::Identity();
 };
 

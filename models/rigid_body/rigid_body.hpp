@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "models/rigid_body/absolute_dae.hpp"
@@ -45,6 +47,9 @@ class RigidBody {
       momentum = std::max(momentum, load_.moment.norm() * horizon);
       rate = std::max(rate, load_.moment.norm() * horizon / largest);
     }
+    if constexpr (!has_moment)
+      if (initial.attitude.allFinite() && std::isfinite(initial.angular_momentum.stableNorm()))
+        free_motion_.emplace(inertia, unit_quaternion(initial.attitude), initial.angular_momentum);
     momentum_scale_ = momentum > 0.0 ? momentum : 1.0;
     time_scale_ = rate > 0.0 ? 1.0 / rate : horizon;
   }
@@ -162,11 +167,11 @@ class RigidBody {
     rates(inertia_, load_, y, rate);
   }
 
-  /// The closed form of the free body in double precision, as an integrator of its own.
+  /// The closed form of the free body in double precision, as an integrator of its own. What does not depend
+  /// on the time is worked out once a body.
   State closed_form(double t) const requires(!has_moment) {
-    const ExactFreeTop<double> top(inertia_, unit_quaternion(initial_.attitude), initial_.angular_momentum);
-    const auto state = top.at(t);
-    return {state.orientation.normalized().toRotationMatrix(), state.angular_momentum};
+    const auto state = free_motion_.value().at(t);
+    return {state.orientation.toRotationMatrix(), state.angular_momentum};
   }
 
   /// The closed form of Lagrange's top, as an integrator of its own, and why this body is none; empty if it
@@ -246,6 +251,7 @@ class RigidBody {
   Load load_;
   double momentum_scale_ = 1.0;
   double time_scale_ = 1.0;
+  std::conditional_t<has_moment, std::monostate, std::optional<ExactFreeTop<double>>> free_motion_;
 };
 
 }  // namespace gnomon::rigid_body

@@ -11,6 +11,7 @@
 #include "src/error.hpp"
 #include "src/output/files.hpp"
 #include "src/study/compare.hpp"
+#include "src/study/peers.hpp"
 #include "src/study/present.hpp"
 #include "src/study/published.hpp"
 #include "src/study/speed.hpp"
@@ -124,6 +125,9 @@ class Study {
     parts_.push_back({model + "-speed", "Speed", 1, [=, this](output::Progress& progress) {
                         return make_speed(model, study.speed, progress);
                       }});
+    for (const PeerPlan& plan : study.peers)
+      parts_.push_back({"peers-" + plan.scene, "Against other libraries: " + plan.scene, 1,
+                        [=, this](output::Progress& progress) { return make_peers(plan, progress); }});
   }
 
   bool make_orders(const std::string& model, const std::vector<Scene>& scenes,
@@ -205,6 +209,17 @@ class Study {
     return true;
   }
 
+  bool make_peers(const PeerPlan& plan, output::Progress& progress) {
+    progress.begin(fmt::format("{} / time to given errors, interleaved", plan.scene));
+    const PeerStudy study = measure_peers(runner_, plan, request_.quick);
+    if (runner_.stopped()) return false;
+    Document document(context_.catalogue, "bench");
+    document.json()["peers"] = peers_json(study);
+    write_study(folder_, "peers-" + plan.scene, {peers_table(study), peer_runs_table(study)}, document,
+                std::nullopt, "");
+    return true;
+  }
+
   static std::string command(const std::string& arguments, const StudyOptions& options = {}) {
     if (options.integrators.empty()) return fmt::format("`./gnomon {}`\n\n", arguments);
     return fmt::format("`./gnomon {} --integrators {}`\n\n", arguments, fmt::join(options.integrators, ","));
@@ -239,8 +254,11 @@ class Study {
     }
     output::write_file_atomically(folder_ + "/README.md", text);
     for (const Part& part : parts_)
-      if (part.name.ends_with("-orders") || part.name.ends_with("-speed"))
-        say(request_, output::read_file(fmt::format("{}/{}.md", folder_, part.name)));
+      if (part.name.ends_with("-orders") || part.name.ends_with("-speed") ||
+          part.name.starts_with("peers-")) {
+        const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
+        say(request_, content.substr(0, content.find("**Runs**")));
+      }
     say(request_,
         fmt::format("wrote {} parts to {}; start with {}/README.md", parts_.size(), folder_, folder_));
   }

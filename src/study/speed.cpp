@@ -14,13 +14,16 @@ WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
   const void* model = scene.model->get();
   RunSpec spec;
   spec.t_end = scene.t_end;
-  spec.tol = yardstick.tol;
+  if (yardstick.tol > 0.0)
+    spec.tol = yardstick.tol;
+  else
+    spec.step = yardstick.step;
   spec.record = false;
 
   WrapperTime time{&yardstick, 0, 0, 0.0, {}, {}};
   const RunResult wrapped = run(model, spec);
   std::vector<double> plain;
-  yardstick.run(model, spec.t_end, yardstick.tol, plain, time.plain_evaluations);
+  yardstick.run(model, spec.t_end, yardstick.setting(), plain, time.plain_evaluations);
   time.evaluations = wrapped.cost.rhs;
   for (std::size_t k = 0; k < plain.size(); ++k)
     time.difference = std::max(time.difference, std::abs(plain[k] - wrapped.state[k]));
@@ -28,7 +31,7 @@ WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
   const std::vector<TimedTask> tasks{{[&] { return run(model, spec).cpu_seconds; }}, {[&] {
                                        std::vector<double> state;
                                        long evaluations = 0;
-                                       return yardstick.run(model, spec.t_end, yardstick.tol, state,
+                                       return yardstick.run(model, spec.t_end, yardstick.setting(), state,
                                                             evaluations);
                                      }}};
   TimingPlan plan;
@@ -54,17 +57,23 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
     changes.set = plan.set;
     scenes.push_back(load_scene(runner.catalogue(), plan.scene, changes));
     for (const SchemeInfo* scheme : runner.catalogue().schemes_for(*scenes.back().model)) {
-      if (scheme->stepping != Stepping::fixed) continue;
+      if (scheme->stepping == Stepping::adaptive) continue;
+      const bool closed = scheme->stepping == Stepping::closed_form;
       RunSpec spec;
       spec.t_end = scenes.back().t_end;
-      spec.step = plan.step;
+      if (!closed) spec.step = plan.step;
       spec.record = false;
       spec.newton_tol = plan.newton_tol;
       const auto run = runner.catalogue().pair(scheme->name, *scenes.back().model)->run;
       const std::shared_ptr<const AnyModel> model = scenes.back().model;
       tasks.push_back({[=] { return run(model->get(), spec).cpu_seconds; }});
-      study.steps.push_back(
-          {plan.scene, std::string(model->load_class()), scheme, plan.step, plan.steps, plan.parts, {}});
+      study.steps.push_back({plan.scene,
+                             std::string(model->load_class()),
+                             scheme,
+                             plan.step,
+                             closed ? 1 : plan.steps,
+                             plan.parts,
+                             {}});
     }
   }
   TimingPlan plan;
@@ -86,12 +95,14 @@ output::Table step_times_table(const SpeedStudy& study) {
   output::Table table;
   const bool parts = std::any_of(study.steps.begin(), study.steps.end(),
                                  [](const StepTime& time) { return time.parts != 1.0; });
-  const long shortest =
-      study.steps.empty()
-          ? 0
-          : std::min_element(study.steps.begin(), study.steps.end(),
-                             [](const StepTime& a, const StepTime& b) { return a.steps < b.steps; })
-                ->steps;
+  long shortest = 0;
+  bool closed_forms = false;
+  for (const StepTime& time : study.steps) {
+    if (time.scheme->stepping == Stepping::closed_form)
+      closed_forms = true;
+    else if (shortest == 0 || time.steps < shortest)
+      shortest = time.steps;
+  }
   table.caption = parts ? "Time of one step, one core" : "Time of one step, one body, one core";
   table.columns = {{"integrator", "integrator", output::Align::left},
                    {"scene", "scene", output::Align::left},
@@ -119,28 +130,32 @@ output::Table step_times_table(const SpeedStudy& study) {
   }
   table.notes.push_back(fmt::format("runs of {}{} steps, interleaved; * repetitions differ by more than 5 %",
                                     parts ? "at least " : "", shortest));
+  if (closed_forms)
+    table.notes.push_back("a closed form: one evaluation, what is worked out once a body apart");
   return table;
 }
 
 output::Table wrapper_table(const SpeedStudy& study) {
   output::Table table;
-  table.caption = "Cost of the wrapper: gnomon's run against the same integration in plain C";
+  table.caption = "Cost of the wrapper: gnomon's run against the same integration without it";
   table.columns = {{"integrator", "integrator", output::Align::left},
+                   {"plain", "against", output::Align::left},
                    {"scene", "scene", output::Align::left},
-                   {"tol", "tolerance"},
+                   {"setting", "setting", output::Align::left},
                    {"wrapped_us", "gnomon [us]"},
-                   {"plain_us", "plain C [us]"},
+                   {"plain_us", "plain [us]"},
                    {"ratio", "ratio"},
                    {"evaluations", "evaluations"},
-                   {"plain_evaluations", "in plain C"},
+                   {"plain_evaluations", "plain"},
                    {"difference", "difference of the results"}};
   for (const WrapperTime& time : study.wrappers)
     table.rows.push_back(
-        {std::string(time.yardstick->integrator), std::string(time.yardstick->scene),
-         output::number_cell(time.yardstick->tol, 1), output::number_cell(1e6 * time.wrapped.median, 4),
-         output::number_cell(1e6 * time.plain.median, 4), output::number_cell(time.ratio(), 3),
-         output::count_cell(time.evaluations), output::count_cell(time.plain_evaluations),
-         output::number_cell(time.difference, 2)});
+        {std::string(time.yardstick->integrator), std::string(time.yardstick->name),
+         std::string(time.yardstick->scene),
+         fmt::format("{} {:g}", time.yardstick->tol > 0.0 ? "tol" : "step", time.yardstick->setting()),
+         output::number_cell(1e6 * time.wrapped.median, 4), output::number_cell(1e6 * time.plain.median, 4),
+         output::number_cell(time.ratio(), 3), output::count_cell(time.evaluations),
+         output::count_cell(time.plain_evaluations), output::number_cell(time.difference, 2)});
   table.notes.push_back("medians of 11 interleaved repetitions; the ratio is that of the medians");
   return table;
 }
@@ -157,6 +172,7 @@ nlohmann::ordered_json speed_json(const SpeedStudy& study) {
                              {"unstable", time.run.unstable}});
   for (const WrapperTime& time : study.wrappers)
     json["wrappers"].push_back({{"integrator", time.yardstick->integrator},
+                                {"plain", time.yardstick->name},
                                 {"scene", time.yardstick->scene},
                                 {"ratio", time.ratio()},
                                 {"evaluations", time.evaluations},

@@ -64,6 +64,15 @@ StudyPlan read_study(const std::string& path) {
                            section.positive("step", "a positive number (s)"),
                            section.positive("t_end", "a positive number (s)")});
   });
+  each("peers", [&](Section& section) {
+    section.only({"scene", "levels", "goals", "integrators"});
+    PeerPlan peers;
+    peers.scene = section.text("scene", "a scene's name");
+    peers.levels = section.numbers("levels", 4, "four errors, the greatest first");
+    peers.goals = section.numbers("goals", 4, "four shares of the best peer's time");
+    peers.integrators = section.texts("integrators", "names of integrators");
+    plan.peers.push_back(std::move(peers));
+  });
   root.finish();
   return plan;
 }

@@ -33,6 +33,14 @@ struct SurveyPlan {
   std::string key() const;
 };
 
+/// Time to given errors, integrators of ours against the peers of the scene's model.
+struct PeerPlan {
+  std::string scene;
+  std::vector<double> levels;  ///< of the error in the first metric, from the greatest on
+  std::vector<double> goals;   ///< for each level, the share of the best peer's time that ours is to need
+  std::vector<std::string> integrators;
+};
+
 /// What `bench` does with one model, read from its study.toml.
 struct StudyPlan {
   std::vector<std::string> converge, quick_converge, compare, quick_compare;
@@ -40,6 +48,7 @@ struct StudyPlan {
   std::vector<DriftPlan> drift;
   std::vector<SpeedPlan> speed;
   std::vector<SurveyPlan> survey;
+  std::vector<PeerPlan> peers;
 };
 
 /// Throws UsageError if the file does not fit.

@@ -1,0 +1,268 @@
+#include "src/study/peers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+namespace gnomon {
+namespace {
+
+/// A run that takes longer is of no use at any level, s.
+constexpr double longest_run = 0.01;
+constexpr double first_tol = 10.0, last_tol = 1e-14;
+/// Settings a decade of tolerances, and of steps an octave.
+constexpr int settings_a_decade = 4, settings_an_octave = 4;
+constexpr long most_steps = 1L << 22;
+
+struct Outcome {
+  double seconds;  ///< not finite if it failed
+  double error;
+  long evaluations;
+};
+
+struct Contender {
+  PeerRow row;
+  Stepping stepping;
+  std::function<Outcome(const Setting&)> run;
+};
+
+std::vector<Setting> ladder(Stepping stepping, double t_end) {
+  std::vector<Setting> list;
+  if (stepping == Stepping::closed_form) {
+    list.emplace_back();
+  } else if (stepping == Stepping::adaptive) {
+    for (int k = 0;; ++k) {
+      const double tol = first_tol * std::pow(10.0, -static_cast<double>(k) / settings_a_decade);
+      if (tol < 0.999 * last_tol) break;
+      list.push_back({std::nullopt, tol});
+    }
+  } else {
+    long steps = 0;
+    for (int k = 0; steps < most_steps; ++k) {
+      const long next = std::lround(std::exp2(static_cast<double>(k) / settings_an_octave));
+      if (next == steps) continue;
+      steps = next;
+      list.push_back({t_end / static_cast<double>(steps), std::nullopt});
+    }
+  }
+  return list;
+}
+
+/// What a state is off the reference, in the first metric; not finite for a run that failed.
+class Judge {
+ public:
+  Judge(const Scene& scene, const ReferenceStates& reference)
+      : model_(scene.model), reference_(reference.states.back()), bound_(reference.bounds.back()[0]) {}
+  double operator()(const std::vector<double>& state) const {
+    return std::max(bound_, model_->distance(state, reference_)[0]);
+  }
+
+ private:
+  std::shared_ptr<const AnyModel> model_;
+  std::vector<double> reference_;
+  double bound_;
+};
+
+Contender of_ours(const Runner& runner, const Scene& scene, const Judge& judge, const SchemeInfo& scheme) {
+  const auto run = runner.catalogue().pair(scheme.name, *scene.model)->run;
+  const void* model = scene.model->get();
+  const double t_end = scene.t_end;
+  return {{std::string(scheme.name), false, scheme.stepping == Stepping::closed_form, {}},
+          scheme.stepping,
+          [=](const Setting& setting) {
+            RunSpec spec;
+            spec.t_end = t_end;
+            spec.step = setting.step;
+            spec.tol = setting.tol;
+            spec.record = false;
+            const RunResult result = run(model, spec);
+            if (result.status != Status::ok) return Outcome{std::nan(""), std::nan(""), 0};
+            return Outcome{result.cpu_seconds, judge(result.state), result.cost.rhs};
+          }};
+}
+
+Contender of_peers(const Scene& scene, const Judge& judge, const Peer& peer) {
+  const void* model = scene.model->get();
+  const double t_end = scene.t_end;
+  const auto run = peer.run;
+  return {{std::string(peer.name), true, false, {}}, Stepping::adaptive, [=](const Setting& setting) {
+            std::vector<double> state;
+            long evaluations = 0;
+            const double seconds = run(model, t_end, *setting.tol, state, evaluations);
+            if (seconds < 0.0) return Outcome{std::nan(""), std::nan(""), 0};
+            return Outcome{seconds, judge(state), evaluations};
+          }};
+}
+
+/// Fills in the levels, not yet timed.
+void find_levels(Contender& contender, const PeerPlan& plan, double t_end, const Runner& runner) {
+  const std::vector<Setting> settings = ladder(contender.stepping, t_end);
+  std::vector<double> errors;
+  std::vector<long> evaluations;
+  const double tightest = *std::min_element(plan.levels.begin(), plan.levels.end());
+  for (const Setting& setting : settings) {
+    if (runner.stopped()) return;
+    const Outcome outcome = contender.run(setting);
+    errors.push_back(outcome.error);
+    evaluations.push_back(outcome.evaluations);
+    if (outcome.seconds > longest_run || loosest_that_counts(errors, tightest)) break;
+  }
+  if (contender.row.closed_form) errors.resize(3, errors.front());
+  for (double level : plan.levels) {
+    const auto found = loosest_that_counts(errors, level);
+    contender.row.levels.push_back(
+        found ? std::optional(LevelTime{settings[*found], errors[*found], evaluations[*found], {}})
+              : std::nullopt);
+  }
+}
+
+std::string setting_text(const Setting& setting) {
+  return !setting.step && !setting.tol ? "closed form" : setting.text();
+}
+
+}  // namespace
+
+std::optional<std::size_t> loosest_that_counts(const std::vector<double>& errors, double level) {
+  for (std::size_t k = 0; k + 2 < errors.size(); ++k)
+    if (errors[k] <= level && errors[k + 1] <= level && errors[k + 2] <= level) return k;
+  return std::nullopt;
+}
+
+std::optional<double> PeerStudy::best(std::size_t level, bool peer) const {
+  std::optional<double> least;
+  for (const PeerRow& row : rows) {
+    if (row.peer != peer || row.closed_form || !row.levels[level]) continue;
+    const double time = row.levels[level]->run.median;
+    if (!least || time < *least) least = time;
+  }
+  return least;
+}
+
+PeerStudy measure_peers(Runner& runner, const PeerPlan& plan, bool quick) {
+  PeerStudy study{plan, "", {}};
+  const Scene scene = load_scene(runner.catalogue(), plan.scene);
+  study.metric = fmt::format("{} error [{}]", scene.model->metrics()[0].name, scene.model->metrics()[0].unit);
+  StudyOptions options;
+  options.integrators = plan.integrators;
+  const ReferenceStates reference = runner.reference(scene, options);
+  if (reference.states.empty()) return study;
+  const Judge judge(scene, reference);
+
+  std::vector<Contender> contenders;
+  for (const Peer& peer : runner.catalogue().peers)
+    if (peer.model_type == scene.model->type()) contenders.push_back(of_peers(scene, judge, peer));
+  for (const SchemeInfo* scheme : select(runner.catalogue(), scene, options))
+    contenders.push_back(of_ours(runner, scene, judge, *scheme));
+
+  std::vector<TimedTask> tasks;
+  std::vector<LevelTime*> timed;
+  for (Contender& contender : contenders) find_levels(contender, plan, scene.t_end, runner);
+  for (Contender& contender : contenders)
+    for (auto& level : contender.row.levels)
+      if (level) {
+        timed.push_back(&*level);
+        tasks.push_back({[&contender, setting = level->setting] { return contender.run(setting).seconds; }});
+      }
+  TimingPlan timing;
+  timing.repetitions = quick ? 5 : 11;
+  timing.min_seconds = quick ? 0.005 : 0.02;
+  timing.timer_cost = timer_cost();
+  const auto stats = measure_interleaved(tasks, timing, [&] { return runner.stopped(); });
+  for (std::size_t k = 0; k < stats.size(); ++k) timed[k]->run = stats[k];
+  for (Contender& contender : contenders) study.rows.push_back(std::move(contender.row));
+  return study;
+}
+
+output::Table peers_table(const PeerStudy& study) {
+  output::Table table;
+  table.caption = fmt::format("Time to the {} on {}, one core", study.metric, study.plan.scene);
+  table.columns = {{"integrator", "integrator", output::Align::left}};
+  for (double level : study.plan.levels) {
+    table.columns.push_back({fmt::format("us_at_{:g}", level), fmt::format("{:g} [us]", level)});
+    table.columns.push_back({fmt::format("ratio_at_{:g}", level), "of the best peer"});
+  }
+  for (const PeerRow& row : study.rows) {
+    std::vector<output::Cell> cells{row.name};
+    for (std::size_t k = 0; k < row.levels.size(); ++k) {
+      const auto peer = study.best(k, true);
+      cells.push_back(row.levels[k] ? output::number_cell(1e6 * row.levels[k]->run.median) : output::Cell{});
+      cells.push_back(row.levels[k] && peer ? output::number_cell(row.levels[k]->run.median / *peer, 2)
+                                            : output::Cell{});
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  std::string reached, asked;
+  for (std::size_t k = 0; k < study.plan.levels.size(); ++k) {
+    const auto ours = study.best(k, false), peer = study.best(k, true);
+    const std::string comma = k > 0 ? ", " : "";
+    reached += comma + (ours && peer ? output::number(*ours / *peer, 2) : output::missing_text);
+    asked += comma + output::number(study.plan.goals[k], 2);
+  }
+  table.notes.push_back(
+      fmt::format("our fastest stepping scheme over the best peer: {}; asked: {}", reached, asked));
+  table.notes.push_back(
+      "medians of thread CPU time, all interleaved in one run; a setting counts only if the two next tighter "
+      "ones also reach the level");
+  return table;
+}
+
+output::Table peer_runs_table(const PeerStudy& study) {
+  output::Table table;
+  table.caption = "Runs";
+  table.columns = {{"integrator", "integrator", output::Align::left},
+                   {"level", "level"},
+                   {"setting", "setting", output::Align::left},
+                   {"error", study.metric},
+                   {"evaluations", "evaluations"},
+                   {"us_median", "median [us]"},
+                   {"us_min", "least [us]"},
+                   {"repetitions", "repetitions"}};
+  for (const PeerRow& row : study.rows)
+    for (std::size_t k = 0; k < row.levels.size(); ++k) {
+      if (!row.levels[k]) continue;
+      const LevelTime& time = *row.levels[k];
+      output::Cell median = output::number_cell(1e6 * time.run.median);
+      if (time.run.unstable) median.text += "*";
+      table.rows.push_back(
+          {row.name, output::number_cell(study.plan.levels[k], 1), setting_text(time.setting),
+           output::number_cell(time.error, 2), output::count_cell(time.evaluations), median,
+           output::number_cell(1e6 * time.run.min), output::count_cell(time.run.repetitions)});
+    }
+  table.notes.push_back("* repetitions differ by more than 5 %");
+  return table;
+}
+
+nlohmann::ordered_json peers_json(const PeerStudy& study) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+  };
+  nlohmann::ordered_json json{{"scene", study.plan.scene},
+                              {"levels", study.plan.levels},
+                              {"goals", study.plan.goals},
+                              {"times", nlohmann::ordered_json::array()}};
+  for (const PeerRow& row : study.rows)
+    for (std::size_t k = 0; k < row.levels.size(); ++k) {
+      nlohmann::ordered_json entry{
+          {"integrator", row.name}, {"peer", row.peer}, {"level", study.plan.levels[k]}};
+      if (row.levels[k]) {
+        const LevelTime& time = *row.levels[k];
+        const auto peer = study.best(k, true);
+        entry["step"] = number(time.setting.step);
+        entry["tol"] = number(time.setting.tol);
+        entry["error"] = time.error;
+        entry["evaluations"] = time.evaluations;
+        entry["us_median"] = 1e6 * time.run.median;
+        entry["us_min"] = 1e6 * time.run.min;
+        entry["repetitions"] = time.run.repetitions;
+        entry["unstable"] = time.run.unstable;
+        entry["ratio"] = number(peer ? std::optional(time.run.median / *peer) : std::nullopt);
+      }
+      json["times"].push_back(std::move(entry));
+    }
+  return json;
+}
+
+}  // namespace gnomon
