@@ -14,10 +14,11 @@ struct StepTime {
   std::string scene;
   std::string load;
   const SchemeInfo* scheme;
-  double step;      ///< s
-  long steps;       ///< a run
-  double parts;     ///< equal parts of the system
-  TimingStats run;  ///< of the whole run, s
+  double step;               ///< s
+  long steps;                ///< a run
+  double parts;              ///< equal parts of the system
+  std::string instructions;  ///< the vector instructions; empty where there is no choice
+  TimingStats run;           ///< of the whole run, s
   double ns() const { return 1e9 * run.median / static_cast<double>(steps); }
 };
 
