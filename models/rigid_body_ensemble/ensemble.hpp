@@ -101,13 +101,14 @@ class Ensemble {
                               Eigen::Map<const Eigen::Vector3d>(flat.data() + k + 9)});
     return state;
   }
-  /// All bodies' quaternions, then all bodies' angular momenta.
+  /// Quaternions and angular momenta of the first bodies, one after the other: thousands would fill results.
   std::vector<Named> observe(const State& state) const {
+    constexpr std::size_t shown = 16;
     Named orientation{"orientation", {}}, momentum{"angular_momentum", {}};
-    for (const rigid_body::State& body : state.bodies) {
-      const Eigen::Quaterniond q = rigid_body::unit_quaternion(body.attitude);
+    for (std::size_t i = 0; i < std::min(shown, state.bodies.size()); ++i) {
+      const Eigen::Quaterniond q = rigid_body::unit_quaternion(state.bodies[i].attitude);
+      const Eigen::Vector3d& m = state.bodies[i].angular_momentum;
       orientation.values.insert(orientation.values.end(), {q.w(), q.x(), q.y(), q.z()});
-      const Eigen::Vector3d& m = body.angular_momentum;
       momentum.values.insert(momentum.values.end(), {m[0], m[1], m[2]});
     }
     return {orientation, momentum};
