@@ -177,7 +177,7 @@ class Ensemble {
   struct Spread {
     double largest = 0.0, squares = 0.0, count = 0.0;
     void add(double value) {
-      if (!(value <= largest)) largest = value;
+      if (!(value <= largest || std::isnan(largest))) largest = value;
       squares += value * value;
       count += 1.0;
     }
