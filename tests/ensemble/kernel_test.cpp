@@ -13,7 +13,7 @@ using namespace gnomon::test;
 
 namespace {
 
-constexpr double unit = 0x1p-52;  // one ulp of 1
+constexpr double ulp_of_one = 0x1p-52;  // one ulp of 1
 
 // Largest differences over some bodies: of an entry of the attitude, and of a component of the momentum
 // relative to its size, in ulp of 1. Not a number counts as infinite.
@@ -21,8 +21,8 @@ struct StepError {
   double attitude = 0.0, momentum = 0.0;
   void add(const Eigen::Matrix3d& difference, const Eigen::Vector3d& change, double size) {
     const auto larger = [](double a, double b) { return b <= a ? a : b >= a ? b : HUGE_VAL; };
-    attitude = larger(attitude, difference.cwiseAbs().maxCoeff() / unit);
-    momentum = larger(momentum, change.cwiseAbs().maxCoeff() / (size * unit));
+    attitude = larger(attitude, difference.cwiseAbs().maxCoeff() / ulp_of_one);
+    momentum = larger(momentum, change.cwiseAbs().maxCoeff() / (size * ulp_of_one));
   }
 };
 
