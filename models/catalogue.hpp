@@ -6,7 +6,7 @@
 namespace gnomon {
 
 /// The types of all models. A new model adds its types here and its reader in catalogue.cpp.
-using Models = Joined<RigidBodies, Ensembles, PlanarBeams>;
+using Models = Joined<RigidBodies, Joined<Ensembles, PlanarBeams>>;
 
 /// Adds the models with their readers and the folders of their scenes.
 void add_models(Catalogue& catalogue);
