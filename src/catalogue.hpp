@@ -134,8 +134,7 @@ std::string_view refusal_of(const void* model) {
 }
 
 template <class S, class... M>
-void add_scheme(Catalogue& catalogue, TypeList<M...>) {
-  catalogue.schemes.push_back(S::info);
+void add_pairs(Catalogue& catalogue, TypeList<M...>) {
   const auto add_one = [&]<class One>(TypeList<One>) {
     if constexpr (Runs<S, One>)
       catalogue.pairs.push_back(
@@ -149,7 +148,15 @@ void add_scheme(Catalogue& catalogue, TypeList<M...>) {
 /// Adds the schemes of a list with every model of another that they run on.
 template <class Models, class... S>
 void add_schemes(Catalogue& catalogue, TypeList<S...>) {
-  (detail::add_scheme<S>(catalogue, Models{}), ...);
+  (catalogue.schemes.push_back(S::info), ...);
+  (detail::add_pairs<S>(catalogue, Models{}), ...);
+}
+
+/// The same with schemes that are there already, written anew for other models: each has the SchemeInfo of
+/// the one it stands for.
+template <class Models, class... S>
+void add_implementations(Catalogue& catalogue, TypeList<S...>) {
+  (detail::add_pairs<S>(catalogue, Models{}), ...);
 }
 
 template <class... M>

@@ -47,7 +47,7 @@ struct RunResult {
   std::vector<double> sample_times;          ///< the start first
   std::vector<std::vector<double>> samples;  ///< flattened model states
   Cost cost;
-  double cpu_seconds = 0.0;  ///< thread CPU time of the integration alone
+  double cpu_seconds = 0.0;  ///< CPU time of the threads that integrate, of the integration alone
   std::vector<std::string> flags;
 };
 
@@ -110,6 +110,15 @@ auto start_of(const M& model, const RunSpec& spec) {
     return S::start(model, model.initial());
 }
 
+/// CPU time of a run so far: that of this thread and, where a scheme has helpers, of theirs [s].
+template <class S, class State>
+double run_cpu_seconds(const State& state) {
+  if constexpr (requires { S::helper_cpu_seconds(state); })
+    return thread_cpu_seconds() + S::helper_cpu_seconds(state);
+  else
+    return thread_cpu_seconds();
+}
+
 /// The inner loop, from step n to step `to`. Stops at the first step that fails.
 template <Model M, FixedStepOn<M> S>
 [[gnu::noinline]] Status march(const M& model, typename S::template State<M>& state, long& n, long to,
@@ -152,9 +161,9 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
     const long start = n;
     const long to = std::min({n + chunk, last, next < stops.size() ? stops[next].index : last});
     checkpoint = state;
-    const double begin = thread_cpu_seconds();
+    const double begin = detail::run_cpu_seconds<S>(state);
     result.status = detail::march<M, S>(model, state, n, to, plan.h);
-    const double spent = thread_cpu_seconds() - begin;
+    const double spent = detail::run_cpu_seconds<S>(state) - begin;
     result.cpu_seconds += spent;
     if (to - start == chunk && spent < 5e-3) chunk *= 2;
     if (result.status != Status::ok || !finite(state)) {

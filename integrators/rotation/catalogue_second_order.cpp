@@ -3,6 +3,8 @@
 
 namespace gnomon::rotation {
 
-void add_second_order_schemes(Catalogue& catalogue) { add_schemes<RigidBodies>(catalogue, SecondOrderSchemes{}); }
+void add_second_order_schemes(Catalogue& catalogue) {
+  add_schemes<RigidBodies>(catalogue, SecondOrderSchemes{});
+}
 
 }  // namespace gnomon::rotation

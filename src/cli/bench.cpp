@@ -122,9 +122,8 @@ class Study {
                         survey_runs(context_.catalogue, study.survey), [=, this](output::Progress& progress) {
                           return make_survey(model, study.survey, options, progress);
                         }});
-    parts_.push_back({model + "-speed", "Speed", 1, [=, this](output::Progress& progress) {
-                        return make_speed(model, study.speed, progress);
-                      }});
+    parts_.push_back({model + "-speed", "Speed", 1,
+                      [=, this](output::Progress& progress) { return make_speed(model, study, progress); }});
     for (const PeerPlan& plan : study.peers)
       parts_.push_back({"peers-" + plan.scene, "Against other libraries: " + plan.scene, 1,
                         [=, this](output::Progress& progress) { return make_peers(plan, progress); }});
@@ -194,9 +193,9 @@ class Study {
     return true;
   }
 
-  bool make_speed(const std::string& model, const std::vector<SpeedPlan>& plans, output::Progress& progress) {
+  bool make_speed(const std::string& model, const StudyPlan& plan, output::Progress& progress) {
     progress.begin("speed of a step and of the wrapper, interleaved");
-    const SpeedStudy study = measure_speed(runner_, plans);
+    const SpeedStudy study = measure_speed(runner_, plan.speed, plan.integrators);
     if (runner_.stopped()) return false;
     Document document(context_.catalogue, "bench");
     document.json()["speed"] = speed_json(study);

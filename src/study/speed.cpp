@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/instruction_set.hpp"
+
 namespace gnomon {
 namespace {
 
@@ -47,17 +49,21 @@ std::string unstable_mark(const TimingStats& stats) { return stats.unstable ? "*
 
 }  // namespace
 
-SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
+SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
+                         const std::vector<std::string>& integrators) {
   SpeedStudy study;
   std::vector<Scene> scenes;
   std::vector<TimedTask> tasks;
-  for (const SpeedPlan& plan : plans) {
+  const auto add = [&](const SpeedPlan& plan, const std::string& instructions) {
     SceneChanges changes;
     changes.t_end = plan.step * static_cast<double>(plan.steps);
     changes.set = plan.set;
+    if (!instructions.empty())
+      changes.set.push_back(fmt::format("{}=\"{}\"", plan.instructions_key, instructions));
     scenes.push_back(load_scene(runner.catalogue(), plan.scene, changes));
     for (const SchemeInfo* scheme : runner.catalogue().schemes_for(*scenes.back().model)) {
       if (scheme->stepping == Stepping::adaptive) continue;
+      if (!integrators.empty() && std::ranges::find(integrators, scheme->name) == integrators.end()) continue;
       const bool closed = scheme->stepping == Stepping::closed_form;
       RunSpec spec;
       spec.t_end = scenes.back().t_end;
@@ -73,7 +79,15 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans) {
                              plan.step,
                              closed ? 1 : plan.steps,
                              plan.parts,
+                             instructions,
                              {}});
+    }
+  };
+  for (const SpeedPlan& plan : plans) {
+    if (plan.instructions_key.empty()) {
+      add(plan, "");
+    } else {
+      for (const InstructionSet set : instruction_sets()) add(plan, std::string(to_string(set)));
     }
   }
   TimingPlan plan;
@@ -95,6 +109,8 @@ output::Table step_times_table(const SpeedStudy& study) {
   output::Table table;
   const bool parts = std::any_of(study.steps.begin(), study.steps.end(),
                                  [](const StepTime& time) { return time.parts != 1.0; });
+  const bool sets = std::any_of(study.steps.begin(), study.steps.end(),
+                                [](const StepTime& time) { return !time.instructions.empty(); });
   long shortest = 0;
   bool closed_forms = false;
   for (const StepTime& time : study.steps) {
@@ -115,6 +131,10 @@ output::Table step_times_table(const SpeedStudy& study) {
     table.columns.push_back({"parts", "parts"});
     table.columns.push_back({"ns_part", "a part [ns]"});
   }
+  if (sets) {
+    table.columns.push_back({"parts_per_second", "parts a second"});
+    table.columns.insert(table.columns.begin() + 3, {"instructions", "instructions", output::Align::left});
+  }
   for (const StepTime& time : study.steps) {
     const double scale = 1e9 / static_cast<double>(time.steps);
     output::Cell median = output::number_cell(time.ns());
@@ -126,6 +146,10 @@ output::Table step_times_table(const SpeedStudy& study) {
     if (parts) {
       table.rows.back().push_back(output::count_cell(std::llround(time.parts)));
       table.rows.back().push_back(output::number_cell(time.ns() / time.parts, 3));
+    }
+    if (sets) {
+      table.rows.back().push_back(output::number_cell(1e9 * time.parts / time.ns(), 3));
+      table.rows.back().insert(table.rows.back().begin() + 3, time.instructions);
     }
   }
   table.notes.push_back(fmt::format("runs of {}{} steps, interleaved; * repetitions differ by more than 5 %",
@@ -163,13 +187,16 @@ output::Table wrapper_table(const SpeedStudy& study) {
 nlohmann::ordered_json speed_json(const SpeedStudy& study) {
   nlohmann::ordered_json json;
   for (const StepTime& time : study.steps)
-    json["steps"].push_back({{"integrator", time.scheme->name},
-                             {"scene", time.scene},
-                             {"step", time.step},
-                             {"parts", time.parts},
-                             {"ns_median", time.ns()},
-                             {"repetitions", time.run.repetitions},
-                             {"unstable", time.run.unstable}});
+    json["steps"].push_back(
+        {{"integrator", time.scheme->name},
+         {"scene", time.scene},
+         {"step", time.step},
+         {"parts", time.parts},
+         {"instructions",
+          time.instructions.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(time.instructions)},
+         {"ns_median", time.ns()},
+         {"repetitions", time.run.repetitions},
+         {"unstable", time.run.unstable}});
   for (const WrapperTime& time : study.wrappers)
     json["wrappers"].push_back({{"integrator", time.yardstick->integrator},
                                 {"plain", time.yardstick->name},

@@ -14,10 +14,11 @@ struct StepTime {
   std::string scene;
   std::string load;
   const SchemeInfo* scheme;
-  double step;      ///< s
-  long steps;       ///< a run
-  double parts;     ///< equal parts of the system
-  TimingStats run;  ///< of the whole run, s
+  double step;               ///< s
+  long steps;                ///< a run
+  double parts;              ///< equal parts of the system
+  std::string instructions;  ///< the vector instructions; empty where there is no choice
+  TimingStats run;           ///< of the whole run, s
   double ns() const { return 1e9 * run.median / static_cast<double>(steps); }
 };
 
@@ -36,7 +37,9 @@ struct SpeedStudy {
   std::vector<WrapperTime> wrappers;
 };
 
-SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans);
+/// Steps of the named integrators, or of all.
+SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
+                         const std::vector<std::string>& integrators);
 
 output::Table step_times_table(const SpeedStudy& study);
 output::Table wrapper_table(const SpeedStudy& study);

@@ -48,13 +48,14 @@ StudyPlan read_study(const std::string& path) {
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](Section& section) {
-    section.only({"scene", "step", "steps", "parts", "newton_tol", "set"});
+    section.only({"scene", "step", "steps", "parts", "newton_tol", "set", "instructions_key"});
     SpeedPlan speed{section.text("scene", "a scene's name"),
                     section.positive("step", "a positive number (s)")};
     if (section.has("steps")) speed.steps = section.integer("steps", 1, 100'000'000, "a number of steps");
     if (section.has("parts")) speed.parts = section.positive("parts", "a number of parts");
     if (section.has("newton_tol")) speed.newton_tol = section.positive("newton_tol", "a tolerance");
     speed.set = section.texts("set", "texts key.path=value");
+    speed.instructions_key = section.text_or("instructions_key", "", "a key of the scene");
     plan.speed.push_back(std::move(speed));
   });
   each("survey", [&](Section& section) {

@@ -21,6 +21,8 @@ struct SpeedPlan {
   std::vector<std::string> set;  ///< changes of the scene, key.path=value
   double parts = 1.0;  ///< equal parts of the system, such as elements, the time is also given for one
   double newton_tol = 1e-10;
+  /// A key of the scene that chooses the vector instructions: every set that the machine has is timed.
+  std::string instructions_key{};
 };
 
 /// One class of scenes in the survey of a model.
