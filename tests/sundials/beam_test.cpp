@@ -116,7 +116,7 @@ TEST_CASE("sundials: samples at a jump are the limits from the left", "[sundials
       if (named.name == name) return named.values;
     throw std::logic_error("no such values");
   };
-  for (const SchemeInfo& solver : schemes(catalogue, Stepping::adaptive, *scene.model)) {
+  for (const SchemeInfo& solver : solvers(catalogue, *scene.model)) {
     INFO(solver.name);
     RunSpec spec;
     spec.t_end = scene.t_end;

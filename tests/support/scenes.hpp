@@ -43,6 +43,13 @@ inline std::vector<SchemeInfo> schemes(const Catalogue& catalogue, Stepping step
   return chosen;
 }
 
+/// CVODE, ARKODE and IDA as far as they run on a model.
+inline std::vector<SchemeInfo> solvers(const Catalogue& catalogue, const AnyModel& model) {
+  std::vector<SchemeInfo> chosen = schemes(catalogue, Stepping::adaptive, model);
+  std::erase_if(chosen, [](const SchemeInfo& info) { return info.family != "sundials"; });
+  return chosen;
+}
+
 /// The model of a scene as the type it has.
 template <class M>
 const M& typed(const Scene& scene) {
