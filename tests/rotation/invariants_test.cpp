@@ -135,8 +135,8 @@ void check_momentum_and_orthonormality(double h) {
       const double norm = seen.at("momentum_norm").max_drift,
                    momentum = seen.at("angular_momentum").max_drift;
       INFO(info.name << " on " << name << ", h = " << h << ": " << norm << ", " << momentum);
-      // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude. It may well be kept
-      // to the last bit, or |m| alone be kept, as by Omelyan's leapfrog on a symmetric body.
+      // |A^T H|: the momentum that most schemes store is constant, so this shows the attitude. It may well be
+      // kept to the last bit, or |m| alone be kept, as by Omelyan's leapfrog on a symmetric body.
       if (info.conserves_momentum) {
         CHECK(std::max(norm, momentum) <= 1e-12);
       } else if (h == 0.1) {
