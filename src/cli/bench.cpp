@@ -103,9 +103,11 @@ class Study {
       chosen.push_back(on(scene));
       runs += converge_runs(context_.catalogue, scene, chosen.back());
     }
-    parts_.push_back({model + "-orders", "Order of convergence", runs, [=, this](output::Progress& progress) {
-                        return make_orders(model, converging, chosen, progress);
-                      }});
+    if (!converging.empty())
+      parts_.push_back(
+          {model + "-orders", "Order of convergence", runs, [=, this](output::Progress& progress) {
+             return make_orders(model, converging, chosen, progress);
+           }});
     for (const Scene& scene : scenes(request_.quick ? study.quick_compare : study.compare))
       parts_.push_back({"compare-" + scene.name, "Work and precision: " + scene.name,
                         compare_runs(context_.catalogue, scene, on(scene)),
@@ -195,7 +197,7 @@ class Study {
 
   bool make_speed(const std::string& model, const StudyPlan& plan, output::Progress& progress) {
     progress.begin("speed of a step and of the wrapper, interleaved");
-    const SpeedStudy study = measure_speed(runner_, plan.speed, plan.integrators);
+    const SpeedStudy study = measure_speed(runner_, plan.speed, plan.integrators, request_.quick);
     if (runner_.stopped()) return false;
     Document document(context_.catalogue, "bench");
     document.json()["speed"] = speed_json(study);
@@ -269,6 +271,8 @@ class Study {
       const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
       std::string shown = content.substr(0, content.find("**Runs**"));
       if (const std::size_t table = shown.find("**"); table != std::string::npos) shown = shown.substr(table);
+      // Of the survey the first table is enough.
+      if (part.name.ends_with("-survey")) shown = shown.substr(0, shown.find("\n**", 2) + 1);
       text = replace_section(text, part.name, shown);
     }
     output::write_file_atomically(path, text);

@@ -50,7 +50,7 @@ std::string unstable_mark(const TimingStats& stats) { return stats.unstable ? "*
 }  // namespace
 
 SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
-                         const std::vector<std::string>& integrators) {
+                         const std::vector<std::string>& integrators, bool quick) {
   SpeedStudy study;
   std::vector<Scene> scenes;
   std::vector<TimedTask> tasks;
@@ -92,6 +92,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
   }
   TimingPlan plan;
   plan.repetitions = 7;
+  if (quick) plan.min_seconds = 0.005;
   plan.timer_cost = timer_cost();
   const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
   for (std::size_t k = 0; k < stats.size(); ++k) study.steps[k].run = stats[k];

@@ -39,7 +39,7 @@ struct SpeedStudy {
 
 /// Steps of the named integrators, or of all.
 SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
-                         const std::vector<std::string>& integrators);
+                         const std::vector<std::string>& integrators, bool quick);
 
 output::Table step_times_table(const SpeedStudy& study);
 output::Table wrapper_table(const SpeedStudy& study);
