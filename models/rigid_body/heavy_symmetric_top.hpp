@@ -14,6 +14,7 @@
 #include <complex>
 #include <limits>
 
+#include "models/rigid_body/carlson.hpp"
 #include "models/rigid_body/elliptic.hpp"
 
 namespace gnomon::rigid_body {
@@ -166,7 +167,12 @@ class HeavySymmetricTop {
   }
   // Of 1/(1 - n sn^2); root = sqrt(1 - n).
   static Real third_kind(const JacobiValues<Real>& v, Real u, Real n, Real root) {
-    return u + n * static_cast<Real>(elliptic_j(v, root));
+    if constexpr (std::is_same_v<Real, double>) {
+      const Real p = v.cn * v.cn + (root * v.sn) * (root * v.sn);
+      return u + n * (v.sn * v.sn * v.sn) * carlson_rj(v.cn * v.cn, v.dn * v.dn, 1.0, p) / 3;
+    } else {
+      return u + n * static_cast<Real>(elliptic_j(v, root));
+    }
   }
 
   /// The roots y1 <= 0 <= y2 <= y3 of f[0] + f[1] y + f[2] y^2 + f[3] y^3, which is -(Lz - L3)^2 at y = below

@@ -50,6 +50,16 @@ class RigidBody {
     if constexpr (!has_moment)
       if (initial.attitude.allFinite() && std::isfinite(initial.angular_momentum.stableNorm()))
         free_motion_.emplace(inertia, unit_quaternion(initial.attitude), initial.angular_momentum);
+    if constexpr (std::is_same_v<Load, Gravity>)
+      if (symmetric_top_refusal().empty() && initial.attitude.allFinite() &&
+          std::isfinite(initial.angular_momentum.stableNorm())) {
+        const Eigen::Quaterniond turn(top_axes());
+        const int axis = symmetry_axis();
+        symmetric_motion_ = SymmetricMotion{
+            turn,
+            {inertia[(axis + 1) % 3], inertia[axis], std::abs(load_.weight * load_.centre[axis]),
+             unit_quaternion(initial.attitude) * turn, turn.conjugate() * initial.angular_momentum}};
+      }
     momentum_scale_ = momentum > 0.0 ? momentum : 1.0;
     time_scale_ = rate > 0.0 ? 1.0 / rate : horizon;
   }
@@ -174,22 +184,13 @@ class RigidBody {
     return {state.orientation.toRotationMatrix(), state.angular_momentum};
   }
 
-  /// The closed form of Lagrange's top, as an integrator of its own, and why this body is none; empty if it
-  /// is.
+  /// The closed form of Lagrange's top in double precision, as an integrator of its own, and why this body is
+  /// none; empty if it is. What does not depend on the time is worked out once a body.
   State symmetric_top(double t) const requires std::is_same_v<Load, Gravity> {
-    using Real = long double;
-    using Quaternion = Eigen::Quaternion<Real>;
-    const Eigen::Matrix3d axes = top_axes();
-    const Quaternion turn(Eigen::Matrix<Real, 3, 3>(axes.cast<Real>()));
-    const Quaternion q = unit_quaternion(initial_.attitude).cast<Real>().normalized();
-    const Vector<Real> m = axes.transpose().cast<Real>() * initial_.angular_momentum.cast<Real>();
-    const int axis = symmetry_axis();
-    const HeavySymmetricTop<Real> top(inertia_[(axis + 1) % 3], inertia_[axis],
-                                      std::abs(Real(load_.weight) * load_.centre[axis]), q * turn, m);
-    const auto state = top.at(Real(t));
-    const Quaternion orientation = (state.orientation * turn.conjugate()).normalized();
-    return {orientation.toRotationMatrix().template cast<double>(),
-            axes * state.angular_momentum.template cast<double>()};
+    const SymmetricMotion& motion = symmetric_motion_.value();
+    const auto state = motion.top.at(t);
+    return {(state.orientation * motion.turn.conjugate()).toRotationMatrix(),
+            motion.turn * state.angular_momentum};
   }
   std::string_view symmetric_top_refusal() const requires std::is_same_v<Load, Gravity> {
     const int axis = symmetry_axis();
@@ -251,6 +252,12 @@ class RigidBody {
   Load load_;
   double momentum_scale_ = 1.0;
   double time_scale_ = 1.0;
+  struct SymmetricMotion {
+    Eigen::Quaterniond turn;  ///< from axes with the symmetry axis third and upright to those of the body
+    HeavySymmetricTop<double> top;
+  };
+  std::conditional_t<std::is_same_v<Load, Gravity>, std::optional<SymmetricMotion>, std::monostate>
+      symmetric_motion_;
   std::conditional_t<has_moment, std::monostate, std::optional<ExactFreeTop<double>>> free_motion_;
 };
 

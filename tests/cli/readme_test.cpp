@@ -40,6 +40,6 @@ TEST_CASE("cli: the README's examples work as printed", "[cli][long]") {
     CHECK(fs::file_size(folder / "out.txt") > 0);
   }
   CHECK(fs::exists(folder / "run.json"));
-  CHECK(fs::exists(folder / "compare" / "compare-asymmetric-free-top.svg"));
+  CHECK(fs::exists(folder / "compare" / "compare-asymmetric-heavy-top.svg"));
   CHECK(fs::exists(folder / "drift" / "drift-asymmetric-free-top.png"));
 }

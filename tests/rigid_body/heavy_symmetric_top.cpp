@@ -159,7 +159,7 @@ TEST_CASE("rigid body: the closed form of the heavy symmetric top", "[rigid_body
                              HeavyTop(shipped.inertia(), tilted, hanging, 1.0)};
     for (const HeavyTop& top : tops) {
       REQUIRE(top.symmetric_top_refusal().empty());
-      CHECK(apart(top, top.symmetric_top(0.0), top.initial()) <= 2e-15);
+      CHECK(apart(top, top.symmetric_top(0.0), top.initial()) <= 4e-15);
       const std::vector<double> times{0.05, 0.4, 1.5};
       const ReferenceStates reference =
           gnomon::detail::certified_states<HeavyTop, long double>(top, times, 50'000'000);
@@ -169,7 +169,8 @@ TEST_CASE("rigid body: the closed form of the heavy symmetric top", "[rigid_body
         const double error = apart(top, top.symmetric_top(times[k]), expected);
         INFO(name << ", t = " << times[k] << ", error " << error << ", reference " << reference.bounds[k][0]
                   << ", " << reference.bounds[k][1]);
-        CHECK(error <= 5e-14);
+        const double rate = top.initial().angular_momentum.cwiseQuotient(top.inertia()).norm();
+        CHECK(error <= 8.0 * 2.2e-16 * (10.0 + rate * times[k]));
         CHECK(apart(top, top.symmetric_top(times[k] * (1.0 + 1e-9)), expected) >= 1e-11);
       }
     }
