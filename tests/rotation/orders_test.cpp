@@ -153,7 +153,7 @@ bool as_declared(const OrderRow& row) {
 
 }  // namespace
 
-TEST_CASE("schemes: observed orders are the declared ones", "[rotation][orders]") {
+TEST_CASE("schemes: observed orders are the declared ones", "[rotation][orders][long]") {
   const Catalogue catalogue = full_catalogue();
   ReferenceStore references("");
   const std::atomic<bool> stop{false};
