@@ -1,5 +1,7 @@
 #include "src/instruction_set.hpp"
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
@@ -21,6 +23,9 @@ std::vector<InstructionSet> find_instruction_sets() {
 const std::vector<InstructionSet>& instruction_sets() {
   static const std::vector<InstructionSet> sets = find_instruction_sets();
   return sets;
+}
+bool has_instructions(InstructionSet set) {
+  return std::ranges::find(instruction_sets(), set) != instruction_sets().end();
 }
 
 }  // namespace gnomon

@@ -1,12 +1,12 @@
 #pragma once
-#include "integrators/rotation/pose.hpp"
+#include "integrators/rotation/explicit_lie.hpp"
 
 namespace gnomon::rotation {
 
 /// Steps 1-7 of Munjiza's scheme (munjiza.hpp) with a unit quaternion in the place of the triad: the stage
 /// attitudes are q o d_s with d_s = exp(p_s), and w_s = d_s I^-1 d_s^-1 (y + h tau) in the triad of time t, y
 /// = A^T H. The moment is frozen, its full impulse in stages 2 to 4. The map is that of `munjiza`.
-struct JohnsonWilliamsCook {
+struct JohnsonWilliamsCook : ExplicitLie<4, 1> {
   static constexpr SchemeInfo info{
       .name = "johnson-williams-cook",
       .family = "rotation",
@@ -17,25 +17,6 @@ struct JohnsonWilliamsCook {
       .orders = {{{"none", 2}, {"gravity", 1}, {"space_moment", 1}, {"body_moment", 1}}},
       .conserves_momentum = true,
   };
-  template <RotationForm M>
-  using State = Pose;
-
-  template <RotationForm M>
-  static Pose start(const M&, const typename M::State& state) {
-    return pose_of<M>(state);
-  }
-  template <RotationForm M>
-  static typename M::State view(const M&, const Pose& pose) {
-    return state_of<M>(pose);
-  }
-  template <RotationForm M>
-  static Cost cost(const M&, const Pose&, long steps) {
-    Cost cost;
-    cost.steps = steps;
-    cost.rhs = 4 * steps;
-    if constexpr (M::has_moment) cost.moments = steps;
-    return cost;
-  }
 
   template <RotationForm M>
   static Status step(const M& model, Pose& pose, double t, double h) {

@@ -1,12 +1,8 @@
 #pragma once
+#include "integrators/rotation/quaternion_velocity.hpp"
 #include "integrators/rotation/velocity_leapfrog.hpp"
 
 namespace gnomon::rotation {
-
-/// w' = I^-1 (tau - w x I w), all in the body.
-inline Vector3 euler_rate(const Vector3& inertia, const Vector3& tau, const Vector3& w) {
-  return (tau + inertia.cwiseProduct(w).cross(w)).cwiseQuotient(inertia);
-}
 
 /// Euler's equations by the strong-stability-preserving Runge-Kutta method of order 3, tau held in the body,
 /// and the exponential of the velocity.
@@ -41,7 +37,7 @@ struct SpiralLeapfrog : VelocityLeapfrog<SpiralLeap> {
 
 /// All at one time: the turn exp(h w) exp((h^2/2) w'), then the same update of w over the step, the moment
 /// held in the body at that of time t.
-struct SpiralSynchronous {
+struct SpiralSynchronous : CarriesVelocity<3, 1> {
   static constexpr SchemeInfo info{
       .name = "spiral-synchronous",
       .family = "rotation",
@@ -52,30 +48,6 @@ struct SpiralSynchronous {
       .orders = {{{"none", 2}, {"gravity", 1}, {"space_moment", 1}, {"body_moment", 2}}},
       .momentum_orders = {{{"none", 3}, {"body_moment", 3}}},
   };
-  struct QuaternionAndVelocity {
-    Quaternion orientation;  ///< body -> space, unit
-    Vector3 velocity;        ///< w, body components, rad/s
-  };
-  template <RotationForm M>
-  using State = QuaternionAndVelocity;
-
-  template <RotationForm M>
-  static QuaternionAndVelocity start(const M& model, const typename M::State& state) {
-    return {Quaternion(Matrix3(state.attitude)).normalized(),
-            state.angular_momentum.cwiseQuotient(Vector3(model.inertia()))};
-  }
-  template <RotationForm M>
-  static typename M::State view(const M& model, const QuaternionAndVelocity& state) {
-    return {state.orientation.toRotationMatrix(), state.velocity.cwiseProduct(Vector3(model.inertia()))};
-  }
-  template <RotationForm M>
-  static Cost cost(const M&, const QuaternionAndVelocity&, long steps) {
-    Cost cost;
-    cost.steps = steps;
-    cost.rhs = 3 * steps;
-    if constexpr (M::has_moment) cost.moments = steps;
-    return cost;
-  }
 
   template <RotationForm M>
   static Status step(const M& model, QuaternionAndVelocity& state, double t, double h) {

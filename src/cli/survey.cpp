@@ -45,7 +45,7 @@ int survey(Context& context) {
   for (const Planned& each : planned) {
     const Survey study = gnomon::survey(runner, each.model, each.plans, options, progress);
     stopped = stopped || study.interrupted;
-    if (stopped) break;
+    if (study.classes.empty()) break;
     const std::vector<output::Table> tables{survey_cost_table(study), survey_stability_table(study)};
     document.json()["survey"][each.model] = survey_json(study);
     for (const output::Table& table : tables) show(request, table);
@@ -57,6 +57,7 @@ int survey(Context& context) {
         say(request, "wrote " + file);
     }
     all.insert(all.end(), tables.begin(), tables.end());
+    if (stopped) break;
   }
   progress.finish();
   write_outputs(request, document, all);

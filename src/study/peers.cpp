@@ -10,8 +10,8 @@
 namespace gnomon {
 namespace {
 
-/// A run that takes longer is of no use at any level, s.
-constexpr double longest_run = 0.01;
+/// A run with more evaluations, some ten milliseconds, is of no use at any level.
+constexpr long most_evaluations = 400'000;
 constexpr double first_tol = 10.0, last_tol = 1e-14;
 /// Settings a decade of tolerances, and of steps an octave.
 constexpr int settings_a_decade = 4, settings_an_octave = 4;
@@ -108,7 +108,7 @@ void find_levels(Contender& contender, const PeerPlan& plan, double t_end, const
     const Outcome outcome = contender.run(setting);
     errors.push_back(outcome.error);
     evaluations.push_back(outcome.evaluations);
-    if (outcome.seconds > longest_run || loosest_that_counts(errors, tightest)) break;
+    if (outcome.evaluations > most_evaluations || loosest_that_counts(errors, tightest)) break;
   }
   if (contender.row.closed_form) errors.resize(3, errors.front());
   for (double level : plan.levels) {

@@ -159,7 +159,7 @@ output::Cell breaking_cell(const SurveyClass& of, const SurveyEntry& entry) {
 }  // namespace
 
 std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans) {
-  std::size_t runs = 0;
+  std::size_t runs = 1;  // the times
   for (const SurveyPlan& plan : plans) {
     const Scene scene = load(catalogue, plan.scene, std::nullopt);
     StudyOptions options;
@@ -187,10 +187,13 @@ Survey survey(Runner& runner, const std::string& model, const std::vector<Survey
       progress.begin(fmt::format("{} / {}  larger and larger steps", plan.scene, entry.scheme->name));
       if (!runner.stopped()) entry.breaking = find_breaking(runner, of, *entry.scheme);
     }
-    study.classes.push_back(std::move(of));
     if (runner.stopped()) break;
+    study.classes.push_back(std::move(of));
   }
-  if (options.timing && !runner.stopped()) add_times(runner, study.classes, options.quick);
+  if (options.timing && !runner.stopped()) {
+    progress.begin("times of a step, interleaved");
+    add_times(runner, study.classes, options.quick);
+  }
   study.interrupted = runner.stopped();
   return study;
 }

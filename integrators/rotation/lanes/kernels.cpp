@@ -1,21 +1,9 @@
 #include "integrators/rotation/lanes/kernels.hpp"
 
-#include <algorithm>
-
 namespace gnomon::rotation::lanes {
 
 const Kernels* kernels(InstructionSet set) {
-  const auto& sets = instruction_sets();
-  if (std::find(sets.begin(), sets.end(), set) == sets.end()) return nullptr;
-  switch (set) {
-    case InstructionSet::baseline:
-      return baseline_kernels();
-    case InstructionSet::avx2:
-      return avx2_kernels();
-    case InstructionSet::avx512:
-      return avx512_kernels();
-  }
-  return nullptr;
+  return compiled_for<Kernels>(set, baseline_kernels, avx2_kernels, avx512_kernels);
 }
 
 const Kernels& widest_kernels() {
