@@ -28,7 +28,7 @@ Drift energy_drift(const Catalogue& catalogue, const std::string& scheme) {
 }  // namespace
 
 TEST_CASE("schemes: symplectic ones keep the energy of a top without symmetry, merely symmetric ones do not",
-          "[rotation]") {
+          "[rotation][long]") {
   const Catalogue catalogue = full_catalogue();
   for (const char* scheme : {"strang-exact-drift", "lie-verlet", "no-squish"}) {
     const Drift drift = energy_drift(catalogue, scheme);

@@ -175,7 +175,7 @@ TEST_CASE("schemes: momentum and orthonormality stay at roundoff over 1e5 large 
   check_momentum_and_orthonormality(0.1);
 }
 
-TEST_CASE("schemes: the energy of a free body drifts", "[rotation][invariants]") {
+TEST_CASE("schemes: the energy of a free body drifts", "[rotation][invariants][long]") {
   const Catalogue catalogue = full_catalogue();
   // Over 1e5 steps; relative to the energy, signed: an asymmetric body gains, this symmetric one loses.
   struct Case {
@@ -207,7 +207,7 @@ TEST_CASE("schemes: the energy of a free body drifts", "[rotation][invariants]")
   }
 }
 
-TEST_CASE("schemes: declared properties hold, and no others", "[rotation][invariants]") {
+TEST_CASE("schemes: declared properties hold, and no others", "[rotation][invariants][long]") {
   Catalogue catalogue = full_catalogue();
   add_schemes<TypeList<RigidBody<Free>>>(catalogue, TypeList<ExactSteps>{});
   for (const SchemeInfo& info : catalogue.schemes) {
@@ -225,7 +225,7 @@ TEST_CASE("schemes: declared properties hold, and no others", "[rotation][invari
   }
 }
 
-TEST_CASE("schemes: conservation under gravity", "[rotation][invariants]") {
+TEST_CASE("schemes: conservation under gravity", "[rotation][invariants][long]") {
   const Catalogue catalogue = full_catalogue();
   for (const char* name : {"asymmetric-heavy-top", "kovalevskaya"}) {
     const Scene scene = load_scene(catalogue, name);

@@ -206,7 +206,7 @@ TEST_CASE("schemes: the table of orders is the one that the documentation states
   CHECK(!rotation::Rkmk4::info.order_for("no such load"));
 }
 
-TEST_CASE("schemes: planted defects are seen in the observed orders", "[rotation][orders]") {
+TEST_CASE("schemes: planted defects are seen in the observed orders", "[rotation][orders][long]") {
   Catalogue catalogue;
   add_models(catalogue);
   add_schemes<TypeList<RigidBody<Gravity>, RigidBody<SpaceMoment>>>(catalogue, RightCopies{});

@@ -79,7 +79,7 @@ TEST_CASE("schemes: moments that a splitting takes", "[rotation][splitting]") {
   }
 }
 
-TEST_CASE("schemes: energy over many steps is bounded or not", "[rotation][drift]") {
+TEST_CASE("schemes: energy over many steps is bounded or not", "[rotation][drift][long]") {
   const Catalogue catalogue = full_catalogue();
   const auto verdict = [&](const char* scene_name, const char* scheme) {
     SceneChanges longer;

@@ -51,7 +51,7 @@ Ladder climb(const Catalogue& catalogue, std::string_view scheme, const Scene& s
 
 }  // namespace
 
-TEST_CASE("sundials: errors shrink with the tolerance and the solvers agree", "[sundials]") {
+TEST_CASE("sundials: errors shrink with the tolerance and the solvers agree", "[sundials][long]") {
   const Catalogue catalogue = full_catalogue();
   const StderrCapture capture;
   int scenes = 0;

@@ -100,7 +100,7 @@ TEST_CASE("sundials: the solvers agree on turning beams", "[sundials][planar_bea
   check_agreement(load_scene(catalogue, "spinning-rod", {0.5, {}}), false);
 }
 
-TEST_CASE("sundials: the solvers agree on supported beams", "[sundials][planar_beam]") {
+TEST_CASE("sundials: the solvers agree on supported beams", "[sundials][planar_beam][long]") {
   const Catalogue catalogue = full_catalogue();
   check_agreement(load_scene(catalogue, "curved-cantilever"), false);
   check_agreement(load_scene(catalogue, "axial-wave"), false);
