@@ -3,6 +3,7 @@
 #include "integrators/rotation/crouch_grossman.hpp"
 #include "integrators/rotation/exact_splitting.hpp"
 #include "integrators/rotation/implicit_midpoint.hpp"
+#include "integrators/rotation/lie_newmark.hpp"
 #include "integrators/rotation/lie_verlet.hpp"
 #include "integrators/rotation/liemid_ea.hpp"
 #include "integrators/rotation/moser_veselov.hpp"
@@ -24,7 +25,7 @@ using MoserVeselovSchemes = TypeList<Dmv2, Dmv4, Dmv6, Dmv8, Dmv10>;
 using MoserVeselovSplittings = TypeList<Yoshida4Dmv10, Suzuki4Dmv10, BlanesMoan4Dmv10, BlanesMoanRkn4Dmv10>;
 using HighMoserVeselovSplittings =
     TypeList<BlanesMoanRkn6Dmv10, KahanLi6Dmv10, Mclachlan8Dmv10, KahanLi8Dmv10>;
-using SecondOrderSchemes = TypeList<ImplicitMidpoint, LieVerlet, LiemidEa, SimoWongC1>;
+using SecondOrderSchemes = TypeList<ImplicitMidpoint, LieNewmark, LieVerlet, LiemidEa, SimoWongC1>;
 using ExplicitSchemes = TypeList<CommutatorFree4, CrouchGrossman3, Rk4Quaternion>;
 
 void add_splitting_schemes(Catalogue& catalogue);

@@ -1,5 +1,5 @@
 #pragma once
-#include "integrators/rotation/newton.hpp"
+#include "integrators/rotation/gyroscopic.hpp"
 #include "integrators/rotation/velocity_leapfrog.hpp"
 
 namespace gnomon::rotation {
@@ -10,27 +10,10 @@ namespace gnomon::rotation {
 struct OmelyanLeap {
   static constexpr int rates = 0;  // as many as iterations
 
-  [[gnu::noinline]] static Status kick(const Vector3& inertia, const Vector3& tau, double h, Vector3& w,
-                                       long& iterations) {
+  static Status kick(const Vector3& inertia, const Vector3& tau, double h, Vector3& w, long& iterations) {
     const Vector3 m = inertia.cwiseProduct(w);
     const Vector3 known = m + h * tau + 0.5 * h * m.cross(w);
-    Vector3 next = known.cwiseQuotient(inertia);
-    Corrections corrections;
-    for (;;) {
-      ++iterations;
-      const Vector3 m_next = inertia.cwiseProduct(next);
-      const Vector3 residual = m_next - 0.5 * h * m_next.cross(next) - known;
-      // d (I w x w) = -w x (I dw) + (I w) x dw
-      Matrix3 derivative = 0.5 * h * (cross_matrix(next) * inertia.asDiagonal() - cross_matrix(m_next));
-      derivative.diagonal() += inertia;
-      const Vector3 change = solve(derivative, residual);
-      next -= change;
-      const auto verdict = corrections.add(change.cwiseAbs().maxCoeff(), next.cwiseAbs().maxCoeff());
-      if (verdict == Corrections::Verdict::failed || !next.allFinite()) return Status::newton_failed;
-      if (verdict == Corrections::Verdict::done) break;
-    }
-    w = next;
-    return Status::ok;
+    return solve_gyroscopic(inertia, known, h, w, iterations);
   }
   static Quaternion turn(const Vector3& w, double h) {
     const double a = h * h * w.squaredNorm() / 16.0;

@@ -1,5 +1,9 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <string_view>
 
 namespace gnomon::rigid_body {
@@ -38,6 +42,13 @@ inline Eigen::Matrix<double, 3, 4> to_body_derivative(const double* q, const Vec
   return derivative;
 }
 
+/// A load that derives from a potential of the attitude: V [J], a bound of its size `depth` [J].
+template <class Load>
+concept HasPotential = requires(const Load& load, const Eigen::Matrix3d& attitude) {
+  load.potential(attitude);
+  load.depth();
+};
+
 struct Free {
   static constexpr std::string_view kind = "none";
 };
@@ -48,6 +59,8 @@ struct Gravity {
   double weight;
   Vector<double> centre;
 
+  double potential(const Eigen::Matrix3d& attitude) const { return weight * (attitude * centre)[2]; }
+  double depth() const { return std::abs(weight) * centre.norm(); }
   Vector<double> space_moment(double, const Eigen::Matrix3d& attitude) const {
     return (attitude * centre).cross(Vector<double>(0, 0, -weight));
   }
@@ -60,6 +73,77 @@ struct Gravity {
     Eigen::Matrix<double, 3, 4> derivative;
     for (int k = 0; k < 4; ++k) derivative.col(k) = centre.cross(Vector<double>(row.col(k)));
     return derivative;
+  }
+};
+
+/// A potential on SO(3), V(Q) = k (|Q - 1| - l)^2 - a/|Q - B| with Frobenius norms, N. Bou-Rabee, G. Ortolan,
+/// A. Saccon, arXiv 1005.3078: a spring to one attitude and the attraction of another. |Q - B| = sqrt(8) |u|
+/// with u the vector part of the quaternion of B^T Q. At Q = 1 and Q = B it has no derivative; there the term
+/// gives no moment.
+struct AttitudePotential {
+  static constexpr std::string_view kind = "attitude_potential";
+  double stiffness;                 ///< k, J
+  double rest;                      ///< l, 0 to sqrt(8)
+  double attraction;                ///< a, J
+  std::array<double, 4> attractor;  ///< B, unit quaternion w, x, y, z
+
+  double potential(const Eigen::Matrix3d& attitude) const {
+    const Eigen::Quaterniond q(attitude), b(attractor[0], attractor[1], attractor[2], attractor[3]);
+    const double stretch = root8 * q.vec().norm() - rest;
+    return stiffness * stretch * stretch - attraction / (root8 * (b.conjugate() * q).vec().norm());
+  }
+  double depth() const {
+    const double stretch = std::max(rest, root8 - rest);
+    return stiffness * stretch * stretch + std::abs(attraction);
+  }
+  Vector<double> space_moment(double, const Eigen::Matrix3d& attitude) const {
+    const Eigen::Quaterniond q(attitude);
+    const double coefficients[4] = {q.w(), q.x(), q.y(), q.z()};
+    return attitude * body_moment(coefficients);
+  }
+  /// 8 k (l/(sqrt(8) |u|) - 1) u0 u - (a/(sqrt(32) |r|^3)) r0 r, with (u0, u) = q and (r0, r) = B^-1 q.
+  template <class Real>
+  Vector<Real> body_moment(const Real* q) const {
+    using std::sqrt;
+    const Vector<Real> u(q[1], q[2], q[3]);
+    const Real r0 = Real(attractor[0]) * q[0] + axis().template cast<Real>().dot(u);
+    const Vector<Real> r = relative(q);
+    const Real length = sqrt(u.squaredNorm()), distance = sqrt(r.squaredNorm());
+    const Real spring = length > 0 ? Real(root8 * stiffness * rest) / length - Real(8 * stiffness) : Real(0);
+    const Real pull =
+        distance > 0 ? Real(attraction / (2 * root8)) / (distance * distance * distance) : Real(0);
+    return (spring * q[0]) * u - (pull * r0) * r;
+  }
+  Eigen::Matrix<double, 3, 4> body_moment_derivative(const double* q) const {
+    const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+    const Vector<double> u(q[1], q[2], q[3]), b = axis(), r = relative(q);
+    const double b0 = attractor[0], r0 = b0 * q[0] + b.dot(u), length = u.norm(), distance = r.norm();
+    Eigen::Matrix<double, 3, 4> derivative = Eigen::Matrix<double, 3, 4>::Zero();
+    if (length > 0.0) {
+      const double c = root8 * stiffness * rest / length, spring = c - 8.0 * stiffness;
+      derivative.col(0) = spring * u;
+      derivative.rightCols<3>() = q[0] * (spring * one - c / (length * length) * u * u.transpose());
+    }
+    if (distance > 0.0) {
+      const double pull = attraction / (2 * root8) / (distance * distance * distance);
+      Eigen::Matrix3d cross;
+      cross << 0, -b[2], b[1], b[2], 0, -b[0], -b[1], b[0], 0;
+      // d(r0 r/|r|^3) by r0 and r, times d(r0, r) by q
+      const Eigen::Matrix3d by_r = r0 * (one - 3.0 / (distance * distance) * r * r.transpose());
+      derivative.col(0) -= pull * (b0 * r - by_r * b);
+      derivative.rightCols<3>() -= pull * (r * b.transpose() + by_r * (b0 * one - cross));
+    }
+    return derivative;
+  }
+
+ private:
+  static constexpr double root8 = 2.0 * std::numbers::sqrt2;
+  Vector<double> axis() const { return {attractor[1], attractor[2], attractor[3]}; }
+  /// The vector part of B^-1 q.
+  template <class Real>
+  Vector<Real> relative(const Real* q) const {
+    const Vector<Real> u(q[1], q[2], q[3]), b = axis().template cast<Real>();
+    return Real(attractor[0]) * u - q[0] * b - b.cross(u);
   }
 };
 

@@ -38,6 +38,25 @@ Eigen::Quaterniond read_orientation(Section& body) {
   return Eigen::Quaterniond::Identity();
 }
 
+AttitudePotential read_potential(Section& load, Json& resolved) {
+  load.only({"kind", "stiffness", "rest", "attraction", "attractor"}, "kind \"attitude_potential\"");
+  AttitudePotential potential{};
+  potential.stiffness = load.number_or("stiffness", 0.0, "a finite number (of the spring, J)");
+  potential.rest = load.number_or("rest", 0.0, "a finite number (length of the spring at rest)");
+  potential.attraction = load.number_or("attraction", 0.0, "a finite number (J)");
+  const Eigen::Vector3d p =
+      vector(load.numbers("attractor", 3, "three finite numbers (rotation vector of the attractor, rad)"));
+  const double angle = p.norm();
+  const Eigen::Quaterniond q(
+      Eigen::AngleAxisd(angle, angle > 0.0 ? Eigen::Vector3d(p / angle) : Eigen::Vector3d::UnitX()));
+  potential.attractor = {q.w(), q.x(), q.y(), q.z()};
+  resolved["stiffness"] = potential.stiffness;
+  resolved["rest"] = potential.rest;
+  resolved["attraction"] = potential.attraction;
+  resolved["attractor"] = list(p);
+  return potential;
+}
+
 }  // namespace
 
 ParsedModel read(Section& root, double t_end) {
@@ -77,7 +96,8 @@ ParsedModel read(Section& root, double t_end) {
                     largest, sum - largest));
 
   if (std::optional<Section> load = root.section("load")) {
-    const std::string kind = load->one_of("kind", {"none", "gravity", "space_moment", "body_moment"});
+    const std::string kind =
+        load->one_of("kind", {"none", "gravity", "space_moment", "body_moment", "attitude_potential"});
     const std::string owner = fmt::format("kind \"{}\"", kind);
     resolved["load"] = {{"kind", kind}};
     if (kind == "gravity") {
@@ -88,6 +108,9 @@ ParsedModel read(Section& root, double t_end) {
       resolved["load"]["weight"] = weight;
       resolved["load"]["centre"] = list(centre);
       parsed.model = box(RigidBody<Gravity>(inertia, initial, {weight, centre}, t_end));
+    } else if (kind == "attitude_potential") {
+      parsed.model =
+          box(RigidBody<AttitudePotential>(inertia, initial, read_potential(*load, resolved["load"]), t_end));
     } else if (kind != "none") {
       load->only({"kind", "moment"}, owner);
       const Eigen::Vector3d moment = vector(load->numbers("moment", 3, "three finite numbers (N m)"));

@@ -39,8 +39,8 @@ class RigidBody {
     const double largest = inertia.maxCoeff(), smallest = inertia.minCoeff();
     double rate = initial.angular_momentum.cwiseQuotient(inertia).norm();
     double momentum = initial.angular_momentum.norm();
-    if constexpr (std::is_same_v<Load, Gravity>) {
-      const double depth = std::abs(load_.weight) * load_.centre.norm();
+    if constexpr (HasPotential<Load>) {
+      const double depth = load_.depth();
       momentum = std::max(momentum, std::sqrt(2.0 * largest * depth));
       rate += std::sqrt(2.0 * depth / smallest);
     } else if constexpr (has_moment) {
@@ -67,7 +67,8 @@ class RigidBody {
   const Vector<double>& inertia() const { return inertia_; }
   const Load& load() const { return load_; }
   State initial() const { return initial_; }
-  std::string_view load_class() const { return Load::kind; }
+  /// A moment that depends on the attitude asks the same of a scheme whatever its potential is.
+  std::string_view load_class() const { return HasPotential<Load> ? Gravity::kind : Load::kind; }
   double time_scale() const { return time_scale_; }
   double momentum_scale() const { return momentum_scale_; }
   std::vector<double> breaks() const { return {}; }
@@ -120,6 +121,8 @@ class RigidBody {
         const double c = load_.weight * load_.centre.norm() / inertia_[2];
         infos.push_back({"kovalevskaya", 1, 0.0, (w2 + c) * (w2 + c)});
       }
+    } else if constexpr (HasPotential<Load>) {
+      infos.push_back({"energy", 1, 0.0, energy});
     } else if constexpr (std::is_same_v<Load, SpaceMoment>) {
       infos.push_back({"momentum_balance", 3, 0.0, momentum});
     }
@@ -141,7 +144,7 @@ class RigidBody {
       for (int k = 0; k < 3; ++k) *out++ = H[k];
       *out++ = m.norm();
     } else if constexpr (std::is_same_v<Load, Gravity>) {
-      *out++ = kinetic + load_.weight * (A * load_.centre)[2];
+      *out++ = kinetic + load_.potential(A);
       *out++ = H[2];
       if (symmetry_axis() >= 0) *out++ = m[symmetry_axis()];
       if (is_kovalevskaya()) {
@@ -150,6 +153,8 @@ class RigidBody {
         const double a = w[0] * w[0] - w[1] * w[1] - c * g[0], b = 2.0 * w[0] * w[1] - c * g[1];
         *out++ = a * a + b * b;
       }
+    } else if constexpr (HasPotential<Load>) {
+      *out++ = kinetic + load_.potential(A);
     } else if constexpr (std::is_same_v<Load, SpaceMoment>) {
       for (int k = 0; k < 3; ++k) *out++ = H[k] - load_.moment[k] * t;
     }
@@ -243,7 +248,7 @@ class RigidBody {
   }
   double energy_scale() const {
     double scale = 0.5 * initial_.angular_momentum.dot(initial_.angular_momentum.cwiseQuotient(inertia_));
-    if constexpr (std::is_same_v<Load, Gravity>) scale += std::abs(load_.weight) * load_.centre.norm();
+    if constexpr (HasPotential<Load>) scale += load_.depth();
     return scale > 0.0 ? scale : 1.0;
   }
 

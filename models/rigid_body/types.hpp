@@ -6,6 +6,7 @@ namespace gnomon {
 
 using RigidBodies =
     TypeList<rigid_body::RigidBody<rigid_body::Free>, rigid_body::RigidBody<rigid_body::Gravity>,
-             rigid_body::RigidBody<rigid_body::SpaceMoment>, rigid_body::RigidBody<rigid_body::BodyMoment>>;
+             rigid_body::RigidBody<rigid_body::SpaceMoment>, rigid_body::RigidBody<rigid_body::BodyMoment>,
+             rigid_body::RigidBody<rigid_body::AttitudePotential>>;
 
 }  // namespace gnomon

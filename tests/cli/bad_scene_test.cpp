@@ -153,9 +153,11 @@ TEST_CASE("cli: a malformed scene is refused with file, line, key, what was foun
        "(rotation vector, rad)"},
       // The load.
       {good + "[load]\n",
-       "s.toml:7: load.kind: found nothing, expected one of none, gravity, space_moment, body_moment"},
+       "s.toml:7: load.kind: found nothing, expected one of none, gravity, space_moment, "
+       "body_moment, attitude_potential"},
       {good + "[load]\nkind = \"gravty\"\n",
-       "s.toml:8: load.kind: found \"gravty\", expected one of none, gravity, space_moment, body_moment"},
+       "s.toml:8: load.kind: found \"gravty\", expected one of none, gravity, space_moment, "
+       "body_moment, attitude_potential"},
       {good + gravity + "centre = [0, 0, 1]\n",
        "s.toml:7: load.weight: found nothing, expected a positive number (weight, N, along -z of space)"},
       {good + gravity + "weight = 0\ncentre = [0, 0, 1]\n",
@@ -172,6 +174,11 @@ TEST_CASE("cli: a malformed scene is refused with file, line, key, what was foun
        "s.toml:9: load.moment: found [1, 2], expected three finite numbers (N m)"},
       {good + moment + "moment = [1, 2, 3]\nweight = 1\n",
        "s.toml:10: load.weight: found a key unknown to kind \"body_moment\", expected one of kind, moment"},
+      {good + "[load]\nkind = \"attitude_potential\"\nstiffness = 1\n",
+       "s.toml:7: load.attractor: found nothing, expected three finite numbers (rotation vector of the "
+       "attractor, rad)"},
+      {good + "[load]\nkind = \"attitude_potential\"\nattractor = [1, 0, 0]\nrest = inf\n",
+       "s.toml:10: load.rest: found inf, expected a finite number (length of the spring at rest)"},
       {good + "[load]\nkind = \"none\"\nmoment = [1, 2, 3]\n",
        "s.toml:9: load.moment: found a key unknown to kind \"none\", expected kind"},
   };

@@ -114,7 +114,7 @@ TEST_CASE("beam schemes: a step that misses the stop of the motion is flagged", 
   CHECK(result.flags.size() == 1);
 }
 
-TEST_CASE("beam schemes: Simo's robot arm", "[planar_beam]") {
+TEST_CASE("beam schemes: Simo's robot arm", "[planar_beam][long]") {
   const Catalogue catalogue = full_catalogue();
   const Scene scene = load_scene(catalogue, "robot-arm");
   const auto& model = typed<PlanarBeam<2>>(scene);

@@ -117,7 +117,7 @@ TEST_CASE("planar beam: a rigid turn does not strain it", "[planar_beam]") {
   CHECK(turned_strain<1>(false, 0.7, Geometry::exact) <= 1e-14);
 }
 
-TEST_CASE("planar beam: the elastica under a dead tip force", "[planar_beam]") {
+TEST_CASE("planar beam: the elastica under a dead tip force", "[planar_beam][long]") {
   // With EA = GA = S the rotation is that of the elastica and the deflection gains P L/S.
   struct Row {
     double load, deflection, shortening, angle;

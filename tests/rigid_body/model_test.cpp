@@ -51,6 +51,7 @@ void for_each_load(Body&& body) {
   body(RigidBody<Gravity>(inertia, initial, {2.0, {0.3, -0.4, 0.5}}, 3.0));
   body(RigidBody<SpaceMoment>(inertia, initial, {{0.2, 0.1, -0.3}}, 3.0));
   body(RigidBody<BodyMoment>(inertia, initial, {{0.2, 0.1, -0.3}}, 3.0));
+  body(RigidBody<AttitudePotential>(inertia, initial, {1.0, 0.8, 0.3, {-0.5, 0.5, -0.5, 0.5}}, 3.0));
 }
 
 // Largest difference of an analytic derivative and the central differences of
@@ -207,19 +208,43 @@ TEST_CASE("rigid body: the ODE form has the moment of the attitude form", "[rigi
   });
 }
 
-TEST_CASE("rigid body: gravity derives from its potential", "[rigid_body]") {
-  // V = W (A c).e3, and a small turn a in space changes it by -M.a.
+TEST_CASE("rigid body: moments derive from their potentials", "[rigid_body]") {
+  // A small turn a in space changes the potential by -M.a.
   Random random(6);
-  const RigidBody<Gravity> model(inertia, random.state(), {2.0, {0.3, -0.4, 0.5}}, 1.0);
-  for (int k = 0; k < 50; ++k) {
-    const Matrix3d A = random.orientation().toRotationMatrix();
-    const Vector3d a = random.vector().normalized();
-    const auto potential = [&](double angle) {
-      return 2.0 * (AngleAxisd(angle, a).toRotationMatrix() * A * model.load().centre)[2];
-    };
-    const double slope = (potential(1e-5) - potential(-1e-5)) / 2e-5;
-    CHECK(std::abs(slope + model.moment(0.0, A).dot(a)) <= 1e-9);
-  }
+  const Gravity gravity{2.0, {0.3, -0.4, 0.5}};
+  const Quaterniond b = random.orientation();
+  const AttitudePotential potential{1.5, 0.8, 0.3, {b.w(), b.x(), b.y(), b.z()}};
+  const auto of_gravity = [&](const Matrix3d& A) { return 2.0 * (A * gravity.centre)[2]; };
+  const auto of_attitude = [&](const Matrix3d& A) {
+    const double stretch = (A - Matrix3d::Identity()).norm() - 0.8;
+    return 1.5 * stretch * stretch - 0.3 / (A - b.toRotationMatrix()).norm();
+  };
+  const auto check = [&](const auto& load, const auto& V) {
+    for (int k = 0; k < 50; ++k) {
+      const Matrix3d A = random.orientation().toRotationMatrix();
+      const Vector3d a = random.vector().normalized();
+      const auto turned = [&](double angle) { return V(AngleAxisd(angle, a).toRotationMatrix() * A); };
+      CHECK(std::abs(load.potential(A) - V(A)) <= 1e-12);
+      CHECK(std::abs(V(A)) <= load.depth() / 0.05);
+      const double slope = (turned(1e-5) - turned(-1e-5)) / 2e-5;
+      CHECK(std::abs(slope + load.space_moment(0.0, A).dot(a)) <= 1e-8);
+    }
+  };
+  check(gravity, of_gravity);
+  check(potential, of_attitude);
+}
+
+TEST_CASE("rigid body: a potential of the attitude gives no moment where it has no derivative",
+          "[rigid_body]") {
+  const AttitudePotential potential{1.0, 0.8, 0.3, {std::cos(0.5), std::sin(0.5), 0.0, 0.0}};
+  const double one[4] = {1.0, 0.0, 0.0, 0.0};
+  const auto pull = -0.3 / (4 * std::sqrt(2.0) * std::pow(std::sin(0.5), 3)) * std::cos(0.5);
+  // What is left at the one point is the term of the other.
+  CHECK((potential.body_moment(one) - Vector3d(-pull * std::sin(0.5), 0.0, 0.0)).norm() <= 1e-14);
+  const auto spring = 8.0 * (0.8 / (std::sqrt(8.0) * std::sin(0.5)) - 1.0) * std::cos(0.5) * std::sin(0.5);
+  CHECK((potential.body_moment(potential.attractor.data()) - Vector3d(spring, 0.0, 0.0)).norm() <= 1e-14);
+  CHECK(potential.body_moment_derivative(one).allFinite());
+  CHECK(potential.body_moment_derivative(potential.attractor.data()).allFinite());
 }
 
 TEST_CASE("rigid body: states survive flattening, packing and unpacking", "[rigid_body]") {
@@ -296,14 +321,14 @@ TEST_CASE("rigid body: invariants are constant along the exact motion of every s
     for (int k = 0; k <= 8; ++k) times.push_back(scene.t_end * k / 8);
     const ReferenceStates reference = scene.model->reference(times);
     REQUIRE(!reference.kind.empty());
-    // Drifts of all invariants, with the momentum as it is or the wrong way
-    // round after the start.
-    const auto drifts = [&](double sign) {
+    // Drifts of all invariants, with the momentum as it is or half of it the wrong way round after the
+    // start.
+    const auto drifts = [&](double factor) {
       Trace trace{times, {}};
       for (std::size_t k = 0; k < times.size(); ++k) {
         std::vector<double> state = reference.states[k];
         if (k > 0)
-          for (std::size_t i = 9; i < 12; ++i) state[i] *= sign;
+          for (std::size_t i = 9; i < 12; ++i) state[i] *= factor;
         const auto values = scene.model->invariants(times[k], state);
         trace.values.insert(trace.values.end(), values.begin(), values.end());
       }
@@ -315,7 +340,7 @@ TEST_CASE("rigid body: invariants are constant along the exact motion of every s
       CHECK(summary.max_drift <= 2e-15);
     }
     double wrong = 0.0;
-    for (const InvariantSummary& summary : drifts(-1.0)) wrong = std::max(wrong, summary.max_drift);
+    for (const InvariantSummary& summary : drifts(-0.5)) wrong = std::max(wrong, summary.max_drift);
     // A moment fixed in the body keeps nothing but the orthonormality.
     if (scene.model->load_class() == "body_moment")
       CHECK(drifts(1.0).size() == 1);

@@ -319,7 +319,7 @@ TEST_CASE("practice: the commutator term of Buss pays at fast spin only", "[rota
   CHECK(std::abs(augmented / 4.30e-4 - 1.0) <= 0.02);
 }
 
-TEST_CASE("practice: energy in the long run", "[rotation][practice]") {
+TEST_CASE("practice: energy in the long run", "[rotation][practice][long]") {
   const Catalogue catalogue = practice_catalogue();
   const Scene free = load_scene(catalogue, "asymmetric-free-top");
   const auto energy = [&](const char* scheme, double h) {

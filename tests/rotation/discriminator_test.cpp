@@ -11,8 +11,9 @@ using namespace gnomon::test;
 
 namespace {
 
-Drift energy_drift(const Catalogue& catalogue, const std::string& scheme) {
-  const Scene scene = load_scene(catalogue, "off-axis-heavy-top", {1e4, {}});
+Drift energy_drift(const Catalogue& catalogue, const std::string& scheme,
+                   const std::string& name = "off-axis-heavy-top") {
+  const Scene scene = load_scene(catalogue, name, {1e4, {}});
   RunSpec spec;
   spec.t_end = scene.t_end;
   spec.step = 0.25;
@@ -44,4 +45,15 @@ TEST_CASE("schemes: symplectic ones keep the energy of a top without symmetry, m
     CHECK(drift.verdict == DriftVerdict::secular);
     CHECK(std::abs(drift.slope) >= 3e-6);
   }
+}
+
+// The published counterexample, with its step and length.
+TEST_CASE("schemes: the Lie-Newmark method loses the energy of a body in a static potential", "[rotation]") {
+  const Catalogue catalogue = full_catalogue();
+  const Drift verlet = energy_drift(catalogue, "lie-verlet", "lie-newmark");
+  CHECK(verlet.verdict == DriftVerdict::bounded);
+  CHECK(verlet.max_abs <= 0.05);
+  const Drift newmark = energy_drift(catalogue, "lie-newmark", "lie-newmark");
+  CHECK(newmark.verdict == DriftVerdict::secular);
+  CHECK(newmark.max_abs >= 2.0 * verlet.max_abs);
 }

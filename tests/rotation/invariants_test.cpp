@@ -39,7 +39,7 @@ bool within(double value, double low, double high) { return value >= low && valu
 enum class Seen { holds, fails, undecided };
 
 Seen judge(double deviation) {
-  if (deviation <= 1e-11) return Seen::holds;  // roundoff: 1e4 steps stay below 1e-12
+  if (deviation <= 1e-10) return Seen::holds;  // roundoff of 1e4 steps
   return deviation >= 1e-9 ? Seen::fails : Seen::undecided;
 }
 

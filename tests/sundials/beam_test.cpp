@@ -88,7 +88,7 @@ TEST_CASE("sundials: the solvers agree on soft and short beams", "[sundials][pla
     check_agreement(load_scene(catalogue, name), true);
 }
 
-TEST_CASE("sundials: the solvers agree on flying beams", "[sundials][planar_beam]") {
+TEST_CASE("sundials: the solvers agree on flying beams", "[sundials][planar_beam][long]") {
   const Catalogue catalogue = full_catalogue();
   for (const char* name : {"flying-beam", "flying-spaghetti"})
     check_agreement(load_scene(catalogue, name), false);
@@ -137,7 +137,8 @@ TEST_CASE("sundials: samples at a jump are the limits from the left", "[sundials
   }
 }
 
-TEST_CASE("sundials: the solvers agree on an arm across the jump of its motion", "[sundials][planar_beam]") {
+TEST_CASE("sundials: the solvers agree on an arm across the jump of its motion",
+          "[sundials][planar_beam][long]") {
   const Catalogue catalogue = full_catalogue();
   for (double t_end : {5.0, 9.0}) check_agreement(load_scene(catalogue, "robot-arm", {t_end, {}}), false);
 }

@@ -12,6 +12,7 @@
 
 namespace gnomon::test {
 
+using rigid_body::AttitudePotential;
 using rigid_body::BodyMoment;
 using rigid_body::Free;
 using rigid_body::Gravity;
@@ -64,6 +65,7 @@ auto with_rigid_body(const Scene& scene, Body&& body) {
   if (is(typeid(RigidBody<Free>))) return body(typed<RigidBody<Free>>(scene));
   if (is(typeid(RigidBody<Gravity>))) return body(typed<RigidBody<Gravity>>(scene));
   if (is(typeid(RigidBody<SpaceMoment>))) return body(typed<RigidBody<SpaceMoment>>(scene));
+  if (is(typeid(RigidBody<AttitudePotential>))) return body(typed<RigidBody<AttitudePotential>>(scene));
   return body(typed<RigidBody<BodyMoment>>(scene));
 }
 

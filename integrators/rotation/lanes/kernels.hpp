@@ -5,6 +5,8 @@ namespace gnomon::rotation::lanes {
 
 /// Number of step counts that are run side by side, one a lane.
 inline constexpr int count = 8;
+/// Step counts are less than this.
+inline constexpr int most_steps = 32;
 
 /// The step counts of a step H, ascending; their inverses; and the weights, by powers of (H/n)^2, of the
 /// value extrapolated from all counts and of its difference from the one that leaves the last count out.
@@ -13,7 +15,8 @@ struct alignas(64) Sequence {
   double inverse[count];
   double weight[count];
   double defect_weight[count];
-  int first, last;  // the least and the greatest count
+  double active[most_steps][count];  ///< 1 where a lane has more steps than that, else 0
+  int first, last;                   // the least and the greatest count
 };
 
 /// One body with its load.

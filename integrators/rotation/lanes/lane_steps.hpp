@@ -56,7 +56,6 @@ struct BodyFixedMoment {
 template <class Moment>
 void midpoint_rows(const Body& body, const Sequence& sequence, const double* y, double H, Rows& rows) {
   const Lanes moment[3] = {body.load[0], body.load[1], body.load[2]};
-  const Lanes steps = load(sequence.steps);
   Lanes h = H * load(sequence.inverse);
   Lanes turn[3];  // h/2 over the inertia
   for (int k = 0; k < 3; ++k) turn[k] = (0.5 * h) * body.inverse_inertia[k];
@@ -83,9 +82,9 @@ void midpoint_rows(const Body& body, const Sequence& sequence, const double* y, 
     advance(even, odd);
     if (k == sequence.last) break;
     if (k >= sequence.first) {
-      const auto done = steps <= static_cast<double>(k);
-      stdx::where(done, h) = 0.0;
-      for (Lanes& each : turn) stdx::where(done, each) = 0.0;
+      const Lanes active = load(sequence.active[k]);
+      h *= active;
+      for (Lanes& each : turn) each *= active;
     }
     advance(odd, even);
   }
@@ -133,7 +132,6 @@ inline HalfTurn half_turn(const Lanes& s) {
 /// turn about its own axis commutes with everything and is left out. The moment is that of the weight at the
 /// axis n = R(q) e3: -W l n x e3.
 inline void strang_rows(const Top& top, const Sequence& sequence, const double* y, double H, Rows& rows) {
-  const Lanes steps = load(sequence.steps);
   Lanes h = H * load(sequence.inverse);
   Lanes angle = top.half_inverse_inertia * h, kick = top.moment * h;
   Lanes w = y[0], i = y[1], j = y[2], k = y[3], L0 = y[4], L1 = y[5];
@@ -159,14 +157,11 @@ inline void strang_rows(const Top& top, const Sequence& sequence, const double* 
       continue;
     }
     // A lane that is done gets its last half kick, then nothing.
-    Lanes now = kick;
-    stdx::where(steps == static_cast<double>(n), now) = 0.5 * kick;
-    push(now);
-    const auto done = steps <= static_cast<double>(n);
-    stdx::where(done, kick) = 0.0;
-    stdx::where(done, angle) = 0.0;
+    const Lanes active = load(sequence.active[n]);
+    push(0.5 * kick * (load(sequence.active[n - 1]) + active));
+    angle *= active;
   }
-  push(0.5 * kick);
+  push(0.5 * kick * load(sequence.active[sequence.last - 1]));
   const Lanes values[7] = {w, i, j, k, L0, L1, L2};
   for (int c = 0; c < 7; ++c) values[c].copy_to(rows.value[c], stdx::vector_aligned);
 }

@@ -12,6 +12,7 @@ concept LaneBody = HasOde<M> && requires(const M& model) {
   { model.momentum_scale() } -> std::convertible_to<double>;
   model.load();
   { M::Load::kind } -> std::convertible_to<std::string_view>;
+  requires M::Load::kind != "attitude_potential";
 };
 
 template <LaneBody M>

@@ -5,8 +5,9 @@
 
 namespace gnomon::rotation::lanes {
 
-/// The sequence of the given step counts, ascending and > 0, with its weights: the value at h = 0 of the
-/// polynomial in h^2 through all points h = H/n, by Lagrange (the limit of the Aitken-Neville table).
+/// The sequence of the given step counts, ascending, > 0 and < most_steps, with its weights: the value at h =
+/// 0 of the polynomial in h^2 through all points h = H/n, by Lagrange (the limit of the Aitken-Neville
+/// table).
 constexpr Sequence sequence_of(const std::array<int, count>& steps) {
   Sequence sequence{};
   const auto weight = [&](int j, int rows) {
@@ -21,6 +22,7 @@ constexpr Sequence sequence_of(const std::array<int, count>& steps) {
   for (int j = 0; j < count; ++j) {
     sequence.steps[j] = steps[static_cast<std::size_t>(j)];
     sequence.inverse[j] = 1.0 / sequence.steps[j];
+    for (int k = 0; k < most_steps; ++k) sequence.active[k][j] = k < sequence.steps[j] ? 1.0 : 0.0;
     sequence.weight[j] = weight(j, count);
     sequence.defect_weight[j] = sequence.weight[j] - (j < count - 1 ? weight(j, count - 1) : 0.0);
   }
