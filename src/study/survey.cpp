@@ -27,9 +27,9 @@ Scene load(const Catalogue& catalogue, const std::string& name, std::optional<do
 
 /// Why a run does not count as one that survived: its status, or an invariant off by a hundredth of its
 /// scale.
-std::string failure_of(const Scene& scene, const RunResult& result) {
-  if (result.status != Status::ok) return std::string(to_string(result.status));
-  for (const InvariantSummary& invariant : summarise_invariants(*scene.model, result.invariants))
+std::string failure_of(const Row& row) {
+  if (row.result.status != Status::ok) return std::string(to_string(row.result.status));
+  for (const InvariantSummary& invariant : row.invariants)
     if (!(invariant.max_drift <= 0.01))
       return fmt::format("{} off by {:.1g}", invariant.info.name, invariant.max_drift);
   return "";
@@ -47,7 +47,7 @@ Breaking find_breaking(Runner& runner, const SurveyClass& of, const SchemeInfo& 
     Setting setting;
     setting.step = scale * std::pow(2.0, k);
     const Row row = runner.run(scene, {}, scheme, setting, options);
-    const std::string failure = failure_of(scene, row.result);
+    const std::string failure = failure_of(row);
     if (!failure.empty()) {
       breaking.breaks = setting.step;
       breaking.how = failure;
@@ -91,6 +91,7 @@ void add_drift(Runner& runner, SurveyClass& of, const StudyOptions& options, out
 
 void add_times(Runner& runner, std::vector<SurveyClass>& classes, bool quick) {
   std::vector<TimedTask> tasks;
+  std::vector<std::string> names;
   std::vector<SurveyEntry*> timed;
   for (SurveyClass& of : classes)
     for (SurveyEntry& entry : of.entries) {
@@ -104,13 +105,14 @@ void add_times(Runner& runner, std::vector<SurveyClass>& classes, bool quick) {
         const RunResult result = run(model->get(), spec);
         return result.status == Status::ok ? result.cpu_seconds : std::nan("");
       }});
+      names.push_back(fmt::format("{} {}, {}, {:.17g} x {}", of.scene.name, of.scene.physics_hash(),
+                                  entry.scheme->name, of.plan.step, steps));
       entry.timed_steps = steps;
       timed.push_back(&entry);
     }
   TimingPlan plan;
-  plan.timer_cost = timer_cost();
   if (quick) plan.min_seconds = 0.005;
-  const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
+  const auto stats = runner.time("survey times", {}, names, tasks, plan);
   for (std::size_t k = 0; k < stats.size(); ++k) timed[k]->run = stats[k];
 }
 
