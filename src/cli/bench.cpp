@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <functional>
@@ -8,6 +7,7 @@
 
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
+#include "src/cli/session.hpp"
 #include "src/environment.hpp"
 #include "src/error.hpp"
 #include "src/output/files.hpp"
@@ -34,15 +34,6 @@ struct Part {
   std::string heading;  ///< in the index
   std::size_t runs;
   std::function<bool(output::Progress&)> make;  ///< false: interrupted, nothing written
-};
-
-/// What the store knows of the program, the machine and the extent of a study.
-struct Session {
-  std::string code;
-  std::string machine;
-  bool quick = false;
-  std::string study;  ///< a file of the user's; empty: the published study
-  nlohmann::ordered_json environment;
 };
 
 /// All parts of the published study, from what its store holds and, for `bench`, what is measured anew.
@@ -158,7 +149,8 @@ class Study {
     }
     if (!study.survey.empty())
       parts_.push_back({model + "-survey", "All schemes of equal steps",
-                        survey_runs(context_.catalogue, study.survey), [=, this](output::Progress& progress) {
+                        survey_runs(context_.catalogue, study.survey, session_.quick),
+                        [=, this](output::Progress& progress) {
                           return make_survey(model, study.survey, options, progress);
                         }});
     if (!study.speed.empty())
@@ -357,50 +349,16 @@ class Study {
   Fastest fastest_;
 };
 
-Session session_here(const Context& context) {
-  nlohmann::ordered_json machine = environment(context.catalogue);
-  return {hash_text(output::read_file("/proc/self/exe")), machine.at("cpu"), context.request.quick,
-          context.request.study.empty() ? "" : fs::absolute(context.request.study).string(), machine};
-}
-
-/// The last one of which the store has measurements.
-Session session_of(const RunStore& store) {
-  const auto record = store.last("session");
-  if (!record)
-    throw UsageError(fmt::format("{}: found no session of `gnomon bench`, expected one", store.path()));
-  return {record->at("code"), record->at("environment").at("cpu"), record->at("quick"),
-          record->at("environment")};
-}
-
-/// What belongs to another program is of no use to this one.
-void begin_session(RunStore& store, const Session& session, bool fresh) {
-  const auto last = store.last("session");
-  const bool other = last && last->at("code") != session.code;
-  if (store.size() > 0 && (fresh || other)) {
-    store.put_aside();
-    std::cerr << fmt::format("gnomon: {} are put aside in runs.previous.jsonl\n",
-                             fresh ? "earlier measurements" : "the measurements of another build of gnomon");
-  }
-  store.append(
-      {{"key", fmt::format("session {} {}", session.environment.at("date").get<std::string>(), ::getpid())},
-       {"kind", "session"},
-       {"code", session.code},
-       {"quick", session.quick},
-       {"environment", session.environment}});
-}
-
-void tell_notes(const RunStore& store) {
-  for (const std::string& note : store.notes()) std::cerr << "gnomon: " << note << '\n';
-}
-
 }  // namespace
 
 int bench(Context& context) {
   const Request& request = context.request;
   const std::string results = std::string(GNOMON_SOURCE_DIR) + "/results";
-  const std::string folder = !request.out.empty() ? request.out
-                             : request.quick      ? results + "/quick"
-                                                  : results;
+  const std::string usual = !request.study.empty() ? "gnomon-out"
+                            : request.quick        ? results + "/quick"
+                                                   : results;
+  const std::string folder = request.out.empty() ? usual : request.out;
+  if (!request.study.empty()) read_study(request.study);  // refused before anything is written
   RunStore store(folder, RunStore::Access::append);
   tell_notes(store);
   const Session session = session_here(context);
@@ -408,8 +366,8 @@ int bench(Context& context) {
   Study study(context, store, session, folder, true);
   if (!study.make()) {
     std::cerr << fmt::format(
-        "gnomon: interrupted; {} measurements are kept in {} and the next call goes on from them\n",
-        study.keeper().known() + study.keeper().made(), store.path());
+        "gnomon: interrupted; what was measured is kept in {}, the next call goes on from there\n",
+        store.path());
     return interrupted;
   }
   if (fs::weakly_canonical(folder) == fs::weakly_canonical(results)) study.update_readme();
@@ -427,7 +385,13 @@ int report(Context& context) {
   tell_notes(store);
   const Session session = session_of(store);
   Study study(context, store, session, folders.front(), false);
-  return study.make() ? done : interrupted;
+  try {
+    return study.make() ? done : interrupted;
+  } catch (const nlohmann::json::exception& error) {
+    throw UsageError(
+        fmt::format("{}: found measurements of another version of gnomon ({}), expected those of this one",
+                    store.path(), error.what()));
+  }
 }
 
 }  // namespace gnomon::cli

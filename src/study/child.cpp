@@ -1,12 +1,12 @@
 #include "src/study/child.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -96,7 +96,7 @@ void write_all(int file, const std::string& text) {
   }
 }
 
-[[noreturn]] void live(const std::function<std::string(Pulse&)>& work, const ChildLimits& limits,
+[[noreturn]] void live(const std::function<void(Pulse&, const Say&)>& work, const ChildLimits& limits,
                        Pulse& pulse, pid_t parent, int results, int words) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(exit_exception);
@@ -108,7 +108,12 @@ void write_all(int file, const std::string& text) {
   limit(RLIMIT_CORE, 0);
   if (limits.bytes > 0) limit(RLIMIT_AS, limits.bytes);
   try {
-    write_all(results, work(pulse));
+    work(pulse, [&](const std::string& line) {
+      write_all(results, line + '\n');
+      // Nothing more is done before the parent has it.
+      char heard = 0;
+      if (::read(results, &heard, 1) != 1) ::_exit(exit_exception);
+    });
     ::_exit(0);
   } catch (const std::bad_alloc&) {
     ::_exit(exit_no_memory);
@@ -148,8 +153,9 @@ std::string how_it_ended(int status, int words, const ChildLimits& limits) {
   return said.empty() ? text : text + ": " + said;
 }
 
-/// Reads what the child says to its end; something else if it has to be ended before.
-std::optional<ChildEnd> listen(int results, Pulse& pulse, const ChildLimits& limits, std::string& text) {
+/// Hands over what the child says to its end; something else if it has to be ended before.
+std::optional<ChildEnd> listen(int results, Pulse& pulse, const ChildLimits& limits, const Say& hear) {
+  std::string text;
   std::uint64_t count = pulse.count();
   double last = now();
   std::array<char, 65536> buffer;
@@ -158,8 +164,12 @@ std::optional<ChildEnd> listen(int results, Pulse& pulse, const ChildLimits& lim
     const int ready = ::poll(&waiting, 1, 50);
     if (ready > 0) {
       const ssize_t got = ::read(results, buffer.data(), buffer.size());
-      if (got == 0) return std::nullopt;
+      if (got == 0 || (got < 0 && errno == ECONNRESET)) return std::nullopt;
       if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
+      for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
+        hear(text.substr(0, end));
+        ::send(results, "\n", 1, MSG_NOSIGNAL);
+      }
     }
     if (limits.stop && limits.stop->load(std::memory_order_relaxed)) return ChildEnd::interrupted;
     if (pulse.count() != count || ready > 0) {
@@ -183,24 +193,39 @@ std::uint64_t default_memory_limit() {
 #endif
 }
 
-ChildResult in_child(const std::function<std::string(Pulse&)>& work, const ChildLimits& limits) {
+ChildResult in_child(const std::function<void(Pulse&, const Say&)>& work, const ChildLimits& limits,
+                     const Say& hear) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail("make a pipe");
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("make a connection");
   Descriptor results(ends[0]), answers(ends[1]);
   const Descriptor words(::memfd_create("gnomon-child", MFD_CLOEXEC));
   SharedPulse pulse;
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) fail("start a child process");
-  if (child == 0) live(work, limits, *pulse, parent, answers.get(), words.get());
+  if (child == 0) {
+    results.reset();
+    live(work, limits, *pulse, parent, answers.get(), words.get());
+  }
   answers.reset();
 
   ChildResult result;
-  const std::optional<ChildEnd> ended = listen(results.get(), *pulse, limits, result.text);
-  if (ended) ::kill(child, SIGKILL);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  const auto bury = [&] {
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+  };
+  std::optional<ChildEnd> ended;
+  try {
+    ended = listen(results.get(), *pulse, limits, hear);
+  } catch (...) {
+    ::kill(child, SIGKILL);
+    bury();
+    throw;
   }
+  if (ended) ::kill(child, SIGKILL);
+  const int status = bury();
   result.task = pulse->task();
   if (ended == ChildEnd::time_limit)
     result.text = fmt::format("did not end within {:g} s", limits.seconds);

@@ -36,13 +36,15 @@ enum class ChildEnd { done, crashed, time_limit, interrupted };
 
 struct ChildResult {
   ChildEnd end = ChildEnd::done;
-  std::string text;  ///< what the work returned, or how it ended
+  std::string text;  ///< how it ended, unless it is done
   int task = -1;     ///< the last one of which there was a sign of life
 };
 
-/// Does `work` in a child process and hands over the text that it returns. Whatever it does, a crash, an
-/// exception, memory without end or a loop, ends the child only. The child dies with its parent. The caller
-/// must have no other threads. Throws std::runtime_error if there can be no child.
-ChildResult in_child(const std::function<std::string(Pulse&)>& work, const ChildLimits& limits);
+/// Does `work` in a child process; `hear` is given each line that the work says, as it does. Whatever the
+/// work does, a crash, an exception, memory without end or a loop, ends the child only. The child dies with
+/// its parent. The caller must have no other threads. Throws std::runtime_error if there can be no child.
+using Say = std::function<void(const std::string& line)>;
+ChildResult in_child(const std::function<void(Pulse&, const Say&)>& work, const ChildLimits& limits,
+                     const Say& hear);
 
 }  // namespace gnomon

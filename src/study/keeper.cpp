@@ -12,51 +12,19 @@ std::string Keeper::key(std::string_view kind, const Json& identity, bool timed)
   return hash_text(text) + hash_text("gnomon " + text);
 }
 
-Keeper::Kept Keeper::get(std::string_view kind, const Json& identity, bool timed,
-                         const std::function<Json(Pulse&)>& work, bool keep_failures) {
-  Kept kept;
-  const std::string name = key(kind, identity, timed);
-  if (const auto record = store_.find(name)) {
-    ++known_;
-    if (progress_) progress_->known();
-    kept.status = status_named(record->value("status", "ok"));
-    kept.message = record->value("message", "");
-    kept.task = record->value("task", -1);
-    if (record->contains("result")) kept.result = record->at("result");
-    return kept;
-  }
-  if (!plan_.measure) {
-    ++missing_;
-    kept.status = Status::interrupted;
-    kept.message = "not in the store";
-    return kept;
-  }
-  const ChildResult result = in_child(
-      [&](Pulse& pulse) {
-        store_.abandon();
-        return work(pulse).dump(-1, ' ', false, Json::error_handler_t::replace);
-      },
-      plan_.limits);
-  switch (result.end) {
-    case ChildEnd::done:
-      kept.result = Json::parse(result.text);
-      break;
-    case ChildEnd::crashed:
-      kept.status = Status::crashed;
-      break;
-    case ChildEnd::time_limit:
-      kept.status = Status::time_limit;
-      break;
-    case ChildEnd::interrupted:
-      kept.status = Status::interrupted;
-      break;
-  }
-  if (kept.status != Status::ok) {
-    kept.message = result.text;
-    kept.task = result.task;
-  }
+std::optional<Keeper::Kept> Keeper::stored(const std::string& name) const {
+  const auto record = store_.find(name);
+  if (!record) return std::nullopt;
+  Kept kept{status_named(record->value("status", "ok")),
+            record->value("message", ""),
+            {},
+            record->value("task", -1)};
+  if (record->contains("result")) kept.result = record->at("result");
+  return kept;
+}
+
+void Keeper::store(const std::string& name, std::string_view kind, const Json& identity, const Kept& kept) {
   ++made_;
-  if (kept.status == Status::interrupted || (kept.status != Status::ok && !keep_failures)) return kept;
   Json record{{"key", name}, {"kind", kind}};
   if (kept.status == Status::ok) {
     record["result"] = kept.result;
@@ -67,7 +35,70 @@ Keeper::Kept Keeper::get(std::string_view kind, const Json& identity, bool timed
     record["of"] = identity;
   }
   store_.append(record);
-  return kept;
+}
+
+void Keeper::get_all(std::string_view kind, const std::vector<Json>& identities, bool timed,
+                     const std::function<Json(std::size_t, Pulse&)>& work,
+                     const std::function<void(std::size_t)>& begin,
+                     const std::function<bool(std::size_t, const Kept&)>& take) {
+  std::vector<std::string> names;
+  for (const Json& identity : identities) names.push_back(key(kind, identity, timed));
+  std::size_t k = 0;
+  while (k < names.size()) {
+    begin(k);
+    if (const auto kept = stored(names[k])) {
+      ++known_;
+      if (progress_) progress_->known();
+      if (!take(k++, *kept)) return;
+      continue;
+    }
+    if (!plan_.measure) {
+      ++missing_;
+      if (!take(k++, {Status::interrupted, "not in the store", {}, -1})) return;
+      continue;
+    }
+    std::size_t end = k + 1;
+    while (end < names.size() && !store_.holds(names[end])) ++end;
+    bool more = true;
+    const std::size_t first = k;
+    const ChildResult result = in_child(
+        [&](Pulse& pulse, const Say& say) {
+          store_.abandon();
+          for (std::size_t j = first; j < end; ++j) {
+            pulse.beat(0);
+            const Kept kept{Status::ok, "", work(j, pulse), -1};
+            say(kept.result.dump(-1, ' ', false, Json::error_handler_t::replace));
+            if (!take(j, kept)) return;
+          }
+        },
+        plan_.limits,
+        [&](const std::string& line) {
+          const Kept kept{Status::ok, "", Json::parse(line), -1};
+          store(names[k], kind, identities[k], kept);
+          more = take(k++, kept);
+          if (more && k < end) begin(k);
+        });
+    if (!more) return;
+    if (result.end == ChildEnd::done) continue;
+    // It was number k that ended the child.
+    Kept kept{Status::crashed, result.text, {}, result.task};
+    if (result.end == ChildEnd::time_limit) kept.status = Status::time_limit;
+    if (result.end == ChildEnd::interrupted) kept.status = Status::interrupted;
+    if (kept.status != Status::interrupted) store(names.at(k), kind, identities.at(k), kept);
+    if (!take(k++, kept) || kept.status == Status::interrupted) return;
+  }
+}
+
+Keeper::Kept Keeper::get(std::string_view kind, const Json& identity, bool timed,
+                         const std::function<Json(Pulse&)>& work) {
+  Kept only;
+  get_all(
+      kind, {identity}, timed, [&](std::size_t, Pulse& pulse) { return work(pulse); }, [](std::size_t) {},
+      [&](std::size_t, const Kept& kept) {
+        only = kept;
+        return true;
+      });
+  return only;
 }
 
 Keeper::Json Keeper::recall(std::string_view kind, const Json& identity) const {

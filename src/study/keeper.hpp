@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "src/output/progress.hpp"
 #include "src/status.hpp"
@@ -32,10 +33,16 @@ class Keeper {
     Json result;
     int task = -1;  ///< of a failed one, the task it was at
   };
-  /// The measurement of that identity. `work` makes it; what it throws or breaks is a result, too, unless
-  /// `keep_failures` is false. `timed` ones belong to the machine.
-  Kept get(std::string_view kind, const Json& identity, bool timed, const std::function<Json(Pulse&)>& work,
-           bool keep_failures = true);
+  /// The measurements of these identities one after the other: `work(k, pulse)` makes number k, `begin(k)` is
+  /// called before and `take(k, kept)` after it; where that says false the rest is left out. What ends its
+  /// process is a result, too. `timed` ones belong to the machine. Those made share a child process until one
+  /// ends it.
+  void get_all(std::string_view kind, const std::vector<Json>& identities, bool timed,
+               const std::function<Json(std::size_t, Pulse&)>& work,
+               const std::function<void(std::size_t)>& begin,
+               const std::function<bool(std::size_t, const Kept&)>& take);
+  /// A single one.
+  Kept get(std::string_view kind, const Json& identity, bool timed, const std::function<Json(Pulse&)>& work);
 
   /// What is stored that is no measurement, such as what is known of a reference; null if there is none.
   Json recall(std::string_view kind, const Json& identity) const;
@@ -50,6 +57,8 @@ class Keeper {
   std::size_t missing() const { return missing_; }
 
  private:
+  std::optional<Kept> stored(const std::string& name) const;
+  void store(const std::string& name, std::string_view kind, const Json& identity, const Kept& kept);
   std::string key(std::string_view kind, const Json& identity, bool timed) const;
 
   RunStore& store_;

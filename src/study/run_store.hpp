@@ -29,6 +29,7 @@ class RunStore {
   const std::vector<std::string>& notes() const { return notes_; }
   std::size_t size() const { return lines_.size(); }
 
+  bool holds(const std::string& key) const { return lines_.contains(key); }
   /// The last record of that key.
   std::optional<Json> find(const std::string& key) const;
   /// The last record with "kind" equal to `kind`.

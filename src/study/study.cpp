@@ -65,25 +65,52 @@ ReferenceStates Runner::reference(const Scene& scene, const StudyOptions& option
 
 Row Runner::run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
                 const Setting& setting, const StudyOptions& options) {
-  if (!keeper_) return run_here(scene, reference, scheme, setting, options);
-  const Json identity{{"scene", scene.name},
-                      {"physics", scene.physics_hash()},
-                      {"integrator", scheme.name},
-                      {"step", setting.step ? Json(*setting.step) : Json()},
-                      {"tol", setting.tol ? Json(*setting.tol) : Json()},
-                      {"samples", options.samples},
-                      {"watch", options.watch},
-                      {"max_steps", options.max_steps},
-                      {"time_limit", options.time_limit},
-                      {"newton_tol", options.newton_tol},
-                      {"reference", reference.kind}};
+  return run_all(scene, reference, scheme, {setting}, options, [](const Setting&) {}).front();
+}
+
+std::vector<Row> Runner::run_all(const Scene& scene, const ReferenceStates& reference,
+                                 const SchemeInfo& scheme, const std::vector<Setting>& settings,
+                                 const StudyOptions& options,
+                                 const std::function<void(const Setting&)>& begin,
+                                 const std::function<bool(const Row&)>& enough) {
+  std::vector<Row> rows;
+  if (!keeper_) {
+    for (const Setting& setting : settings) {
+      if (stopped() && !rows.empty()) break;
+      begin(setting);
+      rows.push_back(run_here(scene, reference, scheme, setting, options));
+      if (enough && enough(rows.back())) break;
+    }
+    return rows;
+  }
+  std::vector<Json> identities;
+  for (const Setting& setting : settings)
+    identities.push_back({{"scene", scene.name},
+                          {"physics", scene.physics_hash()},
+                          {"integrator", scheme.name},
+                          {"step", setting.step ? Json(*setting.step) : Json()},
+                          {"tol", setting.tol ? Json(*setting.tol) : Json()},
+                          {"samples", options.samples},
+                          {"watch", options.watch},
+                          {"max_steps", options.max_steps},
+                          {"time_limit", options.time_limit},
+                          {"newton_tol", options.newton_tol},
+                          {"reference", reference.kind}});
   // A run looks at its limit itself; one that never comes to do so is ended.
   keeper_->set_seconds(options.time_limit + std::max(1.0, 0.1 * options.time_limit));
-  const Keeper::Kept kept = keeper_->get("run", identity, false, [&](Pulse&) {
-    return row_json(scene, run_here(scene, reference, scheme, setting, options), options.watch > 256);
-  });
-  if (kept.status == Status::ok) return restore_row(scene, scheme, setting, kept.result);
-  return failed_row(scene, scheme, setting, kept.status, kept.message);
+  keeper_->get_all(
+      "run", identities, false,
+      [&](std::size_t k, Pulse&) {
+        return row_json(scene, run_here(scene, reference, scheme, settings[k], options), options.watch > 256);
+      },
+      [&](std::size_t k) { begin(settings[k]); },
+      [&](std::size_t k, const Keeper::Kept& kept) {
+        rows.push_back(kept.status == Status::ok
+                           ? restore_row(scene, scheme, settings[k], kept.result)
+                           : failed_row(scene, scheme, settings[k], kept.status, kept.message));
+        return !(enough && enough(rows.back()));
+      });
+  return rows;
 }
 
 Row Runner::run_here(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,

@@ -89,6 +89,12 @@ class Runner {
   Keeper* keeper() const { return keeper_; }
   Row run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
           const Setting& setting, const StudyOptions& options);
+  /// Runs with all the settings one after the other, up to the first that is `enough`; fewer if the user
+  /// interrupts. `begin` is called before each.
+  std::vector<Row> run_all(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
+                           const std::vector<Setting>& settings, const StudyOptions& options,
+                           const std::function<void(const Setting&)>& begin,
+                           const std::function<bool(const Row&)>& enough = {});
   /// Times the rows that ended well, interleaved, each at least 5 times and 20 ms.
   void time(const Scene& scene, std::vector<Row>& rows, const StudyOptions& options);
   /// Times tasks of any kind in turn. `identity` says what is timed and `names`, one a task, what each does.

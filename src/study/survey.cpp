@@ -42,18 +42,19 @@ Breaking find_breaking(Runner& runner, const SurveyClass& of, const SchemeInfo& 
   const Scene scene = load(runner.catalogue(), of.plan.scene, std::min(500.0 * scale, of.plan.t_end));
   StudyOptions options;
   options.time_limit = 20.0;
+  std::vector<Setting> settings;
+  for (int k = -6; k <= 4; ++k) settings.push_back({scale * std::pow(2.0, k), std::nullopt});
   Breaking breaking;
-  for (int k = -6; k <= 4; ++k) {
-    Setting setting;
-    setting.step = scale * std::pow(2.0, k);
-    const Row row = runner.run(scene, {}, scheme, setting, options);
+  for (const Row& row : runner.run_all(
+           scene, {}, scheme, settings, options, [](const Setting&) {},
+           [](const Row& each) { return !failure_of(each).empty(); })) {
     const std::string failure = failure_of(row);
-    if (!failure.empty()) {
-      breaking.breaks = setting.step;
+    if (failure.empty()) {
+      breaking.survived = *row.setting.step;
+    } else {
+      breaking.breaks = row.setting.step;
       breaking.how = failure;
-      return breaking;
     }
-    breaking.survived = *setting.step;
   }
   return breaking;
 }
@@ -160,11 +161,12 @@ output::Cell breaking_cell(const SurveyClass& of, const SurveyEntry& entry) {
 
 }  // namespace
 
-std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans) {
+std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans, bool quick) {
   std::size_t runs = 1;  // the times
   for (const SurveyPlan& plan : plans) {
     const Scene scene = load(catalogue, plan.scene, std::nullopt);
     StudyOptions options;
+    options.quick = quick;
     options.integrators = surveyed(catalogue, scene);
     runs += converge_runs(catalogue, scene, options) + 2 * options.integrators.size();
   }
