@@ -12,6 +12,7 @@ enum class Status {
   solver_failed,
   step_limit,
   time_limit,
+  crashed,  ///< of a run in a process of its own: a signal, an exception, or more memory than it may have
   interrupted,
   unsupported
 };
@@ -31,12 +32,22 @@ constexpr std::string_view to_string(Status status) {
       return "step_limit";
     case Status::time_limit:
       return "time_limit";
+    case Status::crashed:
+      return "crashed";
     case Status::interrupted:
       return "interrupted";
     case Status::unsupported:
       return "unsupported";
   }
   return "unsupported";
+}
+
+/// The status of that name; unsupported for any other.
+constexpr Status status_named(std::string_view name) {
+  for (const Status status : {Status::ok, Status::diverged, Status::newton_failed, Status::solver_failed,
+                              Status::step_limit, Status::time_limit, Status::crashed, Status::interrupted})
+    if (to_string(status) == name) return status;
+  return Status::unsupported;
 }
 
 /// What a run cost, counted rather than timed. What a scheme does not do stays 0.

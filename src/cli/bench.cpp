@@ -7,14 +7,18 @@
 
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
+#include "src/cli/session.hpp"
 #include "src/environment.hpp"
 #include "src/error.hpp"
 #include "src/output/files.hpp"
+#include "src/output/report_page.hpp"
 #include "src/study/compare.hpp"
+#include "src/study/keeper.hpp"
 #include "src/study/peers.hpp"
 #include "src/study/present.hpp"
 #include "src/study/published.hpp"
 #include "src/study/speed.hpp"
+#include "src/study/summary.hpp"
 #include "src/study/survey.hpp"
 
 namespace gnomon::cli {
@@ -22,8 +26,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A part of the study: it writes files of its own and is skipped when an earlier call with the same program
-/// and plan has finished it.
+constexpr double run_limit = 300.0;  ///< s of one run
+
+/// A part of the study: it writes files of its own.
 struct Part {
   std::string name;     ///< also the stem of its files
   std::string heading;  ///< in the index
@@ -31,72 +36,95 @@ struct Part {
   std::function<bool(output::Progress&)> make;  ///< false: interrupted, nothing written
 };
 
+/// All parts of the published study, from what its store holds and, for `bench`, what is measured anew.
 class Study {
  public:
-  Study(Context& context)
+  Study(Context& context, RunStore& store, Session session, std::string folder, bool measure)
       : context_(context),
         request_(context.request),
+        session_(std::move(session)),
         references_(reference_folder()),
-        runner_(context.catalogue, references_, context.stop) {
-    const std::string results = std::string(GNOMON_SOURCE_DIR) + "/results";
-    folder_ = !request_.out.empty() ? request_.out : request_.quick ? results + "/quick" : results;
-    published_ = fs::weakly_canonical(folder_) == fs::weakly_canonical(results);
-    for (const std::string& file : context.catalogue.study_files) plan(read_study(file), file);
+        runner_(context.catalogue, references_, context.stop),
+        keeper_(store,
+                {session_.code, session_.machine, measure, {0.0, default_memory_limit(), &context.stop}}),
+        folder_(std::move(folder)) {
+    runner_.keep_in(&keeper_);
+    if (!session_.study.empty())
+      plan(read_study(session_.study), fs::path(session_.study).stem().string());
+    else
+      for (const std::string& file : context.catalogue.study_files)
+        plan(read_study(file), fs::path(file).parent_path().filename().string());
   }
 
-  int run() {
-    const std::string program = hash_text(output::read_file("/proc/self/exe"));
-    std::vector<const Part*> open;
-    std::size_t runs = 0, known = 0;
+  /// False if it was interrupted.
+  bool make() {
+    std::size_t runs = 0;
+    for (const Part& part : parts_) runs += part.runs;
+    output::Progress progress(runs, output::progress_mode(request_.quiet || !keeper_.measures()), std::cerr);
+    keeper_.report_to(&progress);
+    std::vector<Part> made;
     for (const Part& part : parts_) {
-      if (!request_.fresh && finished(part, program)) {
-        ++known;
-        continue;
+      const std::size_t known = keeper_.known(), missing = keeper_.missing();
+      if (context_.stop.load() || !part.make(progress)) {
+        keeper_.report_to(nullptr);
+        return false;
       }
-      open.push_back(&part);
-      runs += part.runs;
-    }
-    if (known > 0)
-      std::cerr << fmt::format(
-          "gnomon: {} of {} parts are there from an earlier call (--fresh makes them again)\n", known,
-          parts_.size());
-    output::Progress progress(runs, output::progress_mode(request_.quiet), std::cerr);
-    for (const Part* part : open) {
-      if (context_.stop.load() || !part->make(progress)) {
-        progress.finish();
-        std::cerr << "gnomon: interrupted; the finished parts are kept and the next call goes on from them\n";
-        return interrupted;
+      if (keeper_.missing() == missing) {
+        made.push_back(part);
+      } else {
+        const bool none = keeper_.known() == known;
+        std::cerr << fmt::format("gnomon: {}: {} measurements are not in the store{}\n", part.name,
+                                 none ? "its" : fmt::format("{} of its", keeper_.missing() - missing),
+                                 none ? "" : "; what is there is shown");
+        if (!none) made.push_back(part);
       }
-      output::write_file_atomically(stamp(*part), program);
     }
     progress.finish();
+    keeper_.report_to(nullptr);
+    parts_ = std::move(made);
     write_index();
-    if (published_) update_readme();
-    return done;
+    write_page();
+    return true;
+  }
+  const Keeper& keeper() const { return keeper_; }
+
+  void update_readme() const {
+    const std::string path = std::string(GNOMON_SOURCE_DIR) + "/README.md";
+    std::string text = output::read_file(path);
+    for (const Part& part : parts_) {
+      const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
+      std::string shown = content.substr(0, content.find("**Runs**"));
+      if (const std::size_t table = shown.find("**"); table != std::string::npos) shown = shown.substr(table);
+      // Of the survey the first table is enough.
+      if (part.name.ends_with("-survey")) shown = shown.substr(0, shown.find("\n**", 2) + 1);
+      text = replace_section(text, part.name, shown);
+    }
+    output::write_file_atomically(path, text);
   }
 
  private:
-  void plan(const StudyPlan& study, const std::string& file) {
-    const std::string model = fs::path(file).parent_path().filename().string();
+  /// `model` is what files of the part are called by.
+  void plan(const StudyPlan& study, const std::string& model) {
     const auto scenes = [&](const std::vector<std::string>& names) {
       std::vector<Scene> list;
       for (const std::string& name : names) list.push_back(load_scene(context_.catalogue, name));
       return list;
     };
     StudyOptions options;
-    options.quick = request_.quick;
+    options.quick = session_.quick;
+    options.time_limit = run_limit;
 
     const auto on = [&](const Scene& scene) {
       StudyOptions chosen = options;
       for (const std::string& name : study.integrators) {
         if (!context_.catalogue.scheme(name))
-          throw UsageError(fmt::format("{}: integrators: found the unknown name '{}'", file, name));
+          throw UsageError(fmt::format("study of {}: integrators: found the unknown name '{}'", model, name));
         if (context_.catalogue.pair(name, *scene.model)) chosen.integrators.push_back(name);
       }
       return chosen;
     };
 
-    const std::vector<Scene> converging = scenes(request_.quick ? study.quick_converge : study.converge);
+    const std::vector<Scene> converging = scenes(session_.quick ? study.quick_converge : study.converge);
     std::size_t runs = 0;
     std::vector<StudyOptions> chosen;
     for (const Scene& scene : converging) {
@@ -108,24 +136,27 @@ class Study {
           {model + "-orders", "Order of convergence", runs, [=, this](output::Progress& progress) {
              return make_orders(model, converging, chosen, progress);
            }});
-    for (const Scene& scene : scenes(request_.quick ? study.quick_compare : study.compare))
+    for (const Scene& scene : scenes(session_.quick ? study.quick_compare : study.compare))
       parts_.push_back({"compare-" + scene.name, "Work and precision: " + scene.name,
                         compare_runs(context_.catalogue, scene, on(scene)),
                         [=, this, chosen = on(scene)](output::Progress& progress) {
                           return make_comparison(scene, chosen, progress);
                         }});
     for (const DriftPlan& plan : study.drift) {
-      if (request_.quick && !plan.quick_t_end) continue;
+      if (session_.quick && !plan.quick_t_end) continue;
       parts_.push_back({"drift-" + plan.scene, "Drift: " + plan.scene, plan.integrators.size(),
                         [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
     }
     if (!study.survey.empty())
       parts_.push_back({model + "-survey", "All schemes of equal steps",
-                        survey_runs(context_.catalogue, study.survey), [=, this](output::Progress& progress) {
+                        survey_runs(context_.catalogue, study.survey, session_.quick),
+                        [=, this](output::Progress& progress) {
                           return make_survey(model, study.survey, options, progress);
                         }});
-    parts_.push_back({model + "-speed", "Speed", 1,
-                      [=, this](output::Progress& progress) { return make_speed(model, study, progress); }});
+    if (!study.speed.empty())
+      parts_.push_back({model + "-speed", "Speed", 1, [=, this](output::Progress& progress) {
+                          return make_speed(model, study, progress);
+                        }});
     for (const PeerPlan& plan : study.peers)
       parts_.push_back({"peers-" + plan.scene, "Against other libraries: " + plan.scene, 1,
                         [=, this](output::Progress& progress) { return make_peers(plan, progress); }});
@@ -133,54 +164,72 @@ class Study {
 
   bool make_orders(const std::string& model, const std::vector<Scene>& scenes,
                    const std::vector<StudyOptions>& options, output::Progress& progress) {
-    Document document(context_.catalogue, "bench");
+    Document document = new_document();
     std::vector<Convergence> studies;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
       studies.push_back(converge(runner_, scenes[k], options[k], progress));
       if (studies.back().interrupted) return false;
       document.add(studies.back());
       document.add_orders(studies.back().scene.name, studies.back().orders);
-      Document own(context_.catalogue, "bench");
+      Document own = new_document();
       own.add(studies.back());
       own.add_orders(studies.back().scene.name, studies.back().orders);
-      write_study(folder_, "converge-" + scenes[k].name,
-                  {orders_table(studies.back()), runs_table(studies.back(), "Runs")}, own,
-                  convergence_figure(context_.catalogue, studies.back()),
-                  command("converge " + scenes[k].name, options[k]));
+      publish({"converge-" + scenes[k].name,
+               "Convergence: " + scenes[k].name,
+               command("converge " + scenes[k].name, options[k]),
+               {orders_table(studies.back()), runs_table(studies.back(), "Runs")},
+               convergence_figure(context_.catalogue, studies.back()),
+               {}},
+              own);
+      counts_.add("converge-" + scenes[k].name, studies.back());
     }
-    write_study(folder_, model + "-orders", {order_matrix(studies)}, document, std::nullopt, "");
+    publish({model + "-orders", "Order of convergence: " + model, "", {order_matrix(studies)}, {}, {}},
+            document);
     return true;
   }
 
   bool make_comparison(const Scene& scene, const StudyOptions& options, output::Progress& progress) {
     const Comparison study = compare(runner_, scene, options, progress);
     if (study.interrupted) return false;
-    Document document(context_.catalogue, "bench");
+    Document document = new_document();
     document.add(study);
     output::Table costs = costs_table(study);
     costs.notes.push_back(sundials_line(context_.catalogue));
-    write_study(folder_, "compare-" + scene.name, {costs, runs_table(study, "Runs")}, document,
-                work_precision_figure(context_.catalogue, study), command("compare " + scene.name, options));
+    publish({"compare-" + scene.name,
+             "Work and precision: " + scene.name,
+             command("compare " + scene.name, options),
+             {costs, runs_table(study, "Runs")},
+             work_precision_figure(context_.catalogue, study),
+             {}},
+            document);
+    counts_.add("compare-" + scene.name, study);
+    fastest_.add(study);
     return true;
   }
 
   bool make_drift(const DriftPlan& plan, output::Progress& progress) {
     SceneChanges changes;
-    changes.t_end = request_.quick ? *plan.quick_t_end : plan.t_end;
+    changes.t_end = session_.quick ? *plan.quick_t_end : plan.t_end;
     StudyOptions options;
+    options.time_limit = run_limit;
     options.integrators = plan.integrators;
     options.steps = {plan.step};
     options.tols = {plan.tol};
     const DriftStudy study =
         drift(runner_, load_scene(context_.catalogue, plan.scene, changes), options, progress);
     if (study.interrupted) return false;
-    Document document(context_.catalogue, "bench");
+    Document document = new_document();
     document.add(study);
     document.add_drifts(study);
-    write_study(folder_, "drift-" + plan.scene, {drift_table(study)}, document,
-                drift_figure(context_.catalogue, study, "energy"),
-                command(fmt::format("drift {} --step {:g} --tol {:g} --t-end {:g}", plan.scene, plan.step,
-                                    plan.tol, *changes.t_end)));
+    publish({"drift-" + plan.scene,
+             "Drift: " + plan.scene,
+             command(fmt::format("drift {} --step {:g} --tol {:g} --t-end {:g}", plan.scene, plan.step,
+                                 plan.tol, *changes.t_end)),
+             {drift_table(study)},
+             drift_figure(context_.catalogue, study, "energy"),
+             {}},
+            document);
+    counts_.add("drift-" + plan.scene, study);
     return true;
   }
 
@@ -188,62 +237,85 @@ class Study {
                    const StudyOptions& options, output::Progress& progress) {
     const Survey study = gnomon::survey(runner_, model, plans, options, progress);
     if (study.interrupted) return false;
-    Document document(context_.catalogue, "bench");
+    Document document = new_document();
     document.json()["survey"] = survey_json(study);
-    write_study(folder_, model + "-survey", {survey_cost_table(study), survey_stability_table(study)},
-                document, std::nullopt, command("survey " + model));
+    publish({model + "-survey",
+             "All schemes of equal steps: " + model,
+             command("survey " + model),
+             {survey_cost_table(study), survey_stability_table(study)},
+             {},
+             {}},
+            document);
     return true;
   }
 
   bool make_speed(const std::string& model, const StudyPlan& plan, output::Progress& progress) {
     progress.begin("speed of a step and of the wrapper, interleaved");
-    const SpeedStudy study = measure_speed(runner_, plan.speed, plan.integrators, request_.quick);
+    const SpeedStudy study = measure_speed(runner_, plan.speed, plan.integrators, session_.quick);
     if (runner_.stopped()) return false;
-    Document document(context_.catalogue, "bench");
+    Document document = new_document();
     document.json()["speed"] = speed_json(study);
     std::vector<output::Table> tables{step_times_table(study)};
     if (!study.wrappers.empty()) {
       tables.push_back(wrapper_table(study));
       tables.back().notes.push_back(sundials_line(context_.catalogue));
     }
-    write_study(folder_, model + "-speed", tables, document, std::nullopt, "");
+    publish({model + "-speed", "Speed: " + model, "", tables, {}, {}}, document);
     return true;
   }
 
   bool make_peers(const PeerPlan& plan, output::Progress& progress) {
     progress.begin(fmt::format("{} / time to given errors, interleaved", plan.scene));
-    const PeerStudy study = measure_peers(runner_, plan, request_.quick);
+    const PeerStudy study = measure_peers(runner_, plan, session_.quick);
     if (runner_.stopped()) return false;
-    Document document(context_.catalogue, "bench");
+    Document document = new_document();
     document.json()["peers"] = peers_json(study);
-    write_study(folder_, "peers-" + plan.scene, {peers_table(study), peer_runs_table(study)}, document,
-                std::nullopt, "");
+    publish({"peers-" + plan.scene,
+             "Against other libraries: " + plan.scene,
+             "",
+             {peers_table(study), peer_runs_table(study)},
+             {},
+             {}},
+            document);
     return true;
   }
 
-  static std::string command(const std::string& arguments, const StudyOptions& options = {}) {
-    if (options.integrators.empty()) return fmt::format("`./gnomon {}`\n\n", arguments);
-    return fmt::format("`./gnomon {} --integrators {}`\n\n", arguments, fmt::join(options.integrators, ","));
+  /// Writes the files of a part and keeps it for the page.
+  void publish(output::ReportSection section, const Document& document) {
+    write_study(folder_, section.id, section.tables, document, section.figure,
+                section.command.empty() ? "" : fmt::format("`{}`\n\n", section.command));
+    const std::string drawn = fmt::format("{}/{}.svg", folder_, section.id);
+    if (section.figure && fs::exists(drawn)) section.svg = output::read_file(drawn);
+    sections_.push_back(std::move(section));
   }
 
-  std::string stamp(const Part& part) const {
-    return fmt::format("{}/bench/{}/{}", GNOMON_BINARY_DIR, hash_text(fs::absolute(folder_).string()),
-                       part.name + (request_.quick ? "-quick" : ""));
+  void write_page() const {
+    output::ReportPage page;
+    page.title = session_.quick ? "gnomon: quick study" : "gnomon: study";
+    for (const auto& [name, value] : session_.environment.items())
+      page.facts.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+    if (!fastest_.empty()) page.summary.push_back(fastest_.table());
+    page.summary.push_back(counts_.table());
+    page.sections = sections_;
+    output::write_file_atomically(folder_ + "/report.html",
+                                  output::report_html(page, output::chart_library()));
   }
-  bool finished(const Part& part, const std::string& program) const {
-    try {
-      return fs::exists(fmt::format("{}/{}.md", folder_, part.name)) &&
-             output::read_file(stamp(part)) == program;
-    } catch (const std::exception&) {
-      return false;
-    }
+
+  static std::string command(const std::string& arguments, const StudyOptions& options = {}) {
+    if (options.integrators.empty()) return "./gnomon " + arguments;
+    return fmt::format("./gnomon {} --integrators {}", arguments, fmt::join(options.integrators, ","));
+  }
+
+  Document new_document() const {
+    Document document(context_.catalogue, "bench");
+    document.json()["environment"] = session_.environment;
+    return document;
   }
 
   void write_index() const {
-    const nlohmann::ordered_json machine = environment(context_.catalogue);
     std::string text = "# Results\n\nWritten by `./gnomon bench";
-    text += request_.quick ? " --quick`.\n\n" : "`.\n\n";
-    for (const auto& [key, value] : machine.items())
+    text += session_.quick ? " --quick`.\n\n" : "`.\n\n";
+    for (const auto& [key, value] : session_.environment.items())
       text += fmt::format("- {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     for (const Part& part : parts_) {
       text += fmt::format("\n## {}\n\n", part.heading);
@@ -260,38 +332,66 @@ class Study {
         const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
         say(request_, content.substr(0, content.find("**Runs**")));
       }
-    say(request_,
-        fmt::format("wrote {} parts to {}; start with {}/README.md", parts_.size(), folder_, folder_));
-  }
-
-  void update_readme() const {
-    const std::string path = std::string(GNOMON_SOURCE_DIR) + "/README.md";
-    std::string text = output::read_file(path);
-    for (const Part& part : parts_) {
-      const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
-      std::string shown = content.substr(0, content.find("**Runs**"));
-      if (const std::size_t table = shown.find("**"); table != std::string::npos) shown = shown.substr(table);
-      // Of the survey the first table is enough.
-      if (part.name.ends_with("-survey")) shown = shown.substr(0, shown.find("\n**", 2) + 1);
-      text = replace_section(text, part.name, shown);
-    }
-    output::write_file_atomically(path, text);
+    say(request_, fmt::format("wrote {0} parts to {1}; start with {1}/report.html or {1}/README.md",
+                              parts_.size(), folder_));
   }
 
   Context& context_;
   const Request& request_;
+  Session session_;
   ReferenceStore references_;
   Runner runner_;
-  bool published_ = false;
+  Keeper keeper_;
   std::string folder_;
   std::vector<Part> parts_;
+  std::vector<output::ReportSection> sections_;
+  RunCounts counts_;
+  Fastest fastest_;
 };
 
 }  // namespace
 
 int bench(Context& context) {
-  Study study(context);
-  return study.run();
+  const Request& request = context.request;
+  const std::string results = std::string(GNOMON_SOURCE_DIR) + "/results";
+  const std::string usual = !request.study.empty() ? "gnomon-out"
+                            : request.quick        ? results + "/quick"
+                                                   : results;
+  const std::string folder = request.out.empty() ? usual : request.out;
+  if (!request.study.empty()) read_study(request.study);  // refused before anything is written
+  RunStore store(folder, RunStore::Access::append);
+  tell_notes(store);
+  const Session session = session_here(context);
+  begin_session(store, session, request.fresh);
+  Study study(context, store, session, folder, true);
+  if (!study.make()) {
+    std::cerr << fmt::format(
+        "gnomon: interrupted; what was measured is kept in {}, the next call goes on from there\n",
+        store.path());
+    return interrupted;
+  }
+  if (fs::weakly_canonical(folder) == fs::weakly_canonical(results)) study.update_readme();
+  return done;
+}
+
+int report(Context& context) {
+  const std::vector<std::string>& folders = context.request.what;
+  if (folders.size() != 1)
+    throw UsageError(fmt::format("report: found {} folders, expected one that `gnomon bench` has written",
+                                 folders.size()));
+  context.request.out = folders.front();
+  check_outputs(context.request);
+  RunStore store(folders.front(), RunStore::Access::read);
+  tell_notes(store);
+  const Session session = session_of(store);
+  Study study(context, store, session, folders.front(), false);
+  try {
+    return study.make() ? done : interrupted;
+  } catch (const nlohmann::json::exception& error) {
+    throw UsageError(
+        fmt::format("{}: found measurements of another version of gnomon ({}), expected those of this one",
+                    store.path(), error.what()));
+  }
 }
 
 }  // namespace gnomon::cli

@@ -21,10 +21,11 @@ inline constexpr int interrupted = 3;  ///< what was finished is kept
 /// errors.
 struct Request {
   std::vector<std::string> scenes;
-  std::vector<std::string> what;  ///< of `list` and `survey`
+  std::vector<std::string> what;  ///< of `list`, `survey` and `report`
   std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol;
   std::vector<std::string> set;
   std::string refine;  ///< of `converge`
+  std::string study;   ///< of `bench`
   std::string json, csv, out;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
 };
@@ -77,6 +78,7 @@ int compare(Context& context);
 int drift(Context& context);
 int survey(Context& context);
 int bench(Context& context);
+int report(Context& context);
 int doctor(Context& context);
 
 }  // namespace gnomon::cli

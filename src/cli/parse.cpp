@@ -28,6 +28,7 @@ struct Argument {
 
 constexpr Argument scene{"SCENE", "the name of a shipped scene or a .toml file", &Request::scenes};
 constexpr Argument model_name{"MODEL", "a model with a survey; all without it", &Request::what};
+constexpr Argument folder{"DIR", "a folder that `gnomon bench` has written", &Request::what};
 constexpr Argument what{"WHAT", "scenes, models or integrators; all without it", &Request::what};
 
 struct Option {
@@ -60,8 +61,9 @@ constexpr Option every_option[] = {
     {'o', "--out", "DIR", "folder for tables and figures", &Request::out},
     {'R', "--no-reference", "", "errors become null", &Request::no_reference},
     {'M', "--no-timing", "", "nothing is timed", &Request::no_timing},
+    {'S', "--study", "FILE.toml", "a study of yours, written as models/*/study.toml are", &Request::study},
     {'q', "--quick", "", "shorter ladders", &Request::quick},
-    {'F', "--fresh", "", "recompute the parts that an earlier call finished", &Request::fresh},
+    {'F', "--fresh", "", "measure all anew; what is there is put aside", &Request::fresh},
     {'Q', "--quiet", "", "no progress on standard error", &Request::quiet},
 };
 
@@ -91,7 +93,10 @@ constexpr Command commands[] = {
     {"survey", "[MODEL..] [--quick]",
      "all schemes of equal steps of a model: order, cost, invariants, largest step", &model_name, "xljcoRMqQ",
      survey},
-    {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqFQ", bench},
+    {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqSFQ",
+     bench},
+    {"report", "DIR", "tables, figures and one HTML page from the measurements of a study; runs nothing",
+     &folder, "Q", report},
     {"doctor", "", "versions, build flags, is SUNDIALS optimised, timer noise", nullptr, "jQ", doctor},
 };
 

@@ -85,7 +85,7 @@ void print(const Request& request, const SceneStudy& study) {
                                                 : fmt::format("{:.4e}", row.error[k]),
                              metric.unit == "1" ? "(relative)" : metric.unit));
   }
-  for (const InvariantSummary& invariant : summarise_invariants(model, result.invariants))
+  for (const InvariantSummary& invariant : row.invariants)
     say(request, fmt::format("  drift {:<20} at most {:.3e} of {:.6g}, slope {:.2e} 1/s", invariant.info.name,
                              invariant.max_drift, invariant.info.scale, invariant.slope));
   const Cost& cost = result.cost;

@@ -37,7 +37,7 @@ int survey(Context& context) {
   ReferenceStore references(reference_folder());
   Runner runner(context.catalogue, references, context.stop);
   std::size_t runs = 0;
-  for (const Planned& each : planned) runs += survey_runs(context.catalogue, each.plans);
+  for (const Planned& each : planned) runs += survey_runs(context.catalogue, each.plans, options.quick);
   output::Progress progress(runs, output::progress_mode(request.quiet), std::cerr);
   Document document(context.catalogue, "survey");
   std::vector<output::Table> all;

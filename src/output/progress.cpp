@@ -51,7 +51,8 @@ Progress::Progress(std::size_t total, ProgressMode mode, std::ostream& out, std:
       out_(out),
       columns_(columns),
       clock_(clock ? std::move(clock) : Clock(steady_seconds)),
-      start_(clock_()) {}
+      start_(clock_()),
+      estimate_from_(start_) {}
 
 Progress::~Progress() {
   if (mode_ == ProgressMode::live && line_printed_ && !finished_) out_ << clear_line << std::flush;
@@ -64,6 +65,7 @@ std::string Progress::counter(std::size_t position) const {
 
 void Progress::begin(std::string_view what) {
   ++started_;
+  last_counts_ = true;
   if (mode_ == ProgressMode::silent) return;
   const double now = clock_();
   if (mode_ == ProgressMode::lines && line_printed_ && now - last_line_ < seconds_between_lines) return;
@@ -74,7 +76,7 @@ void Progress::begin(std::string_view what) {
   std::string left;
   if (done > 0 && position <= total_) {
     const double remaining = static_cast<double>(total_ - position + 1);
-    left = "  " + duration((now - start_) / static_cast<double>(done) * remaining) + " left";
+    left = "  " + duration((now - estimate_from_) / static_cast<double>(done) * remaining) + " left";
   }
   if (mode_ == ProgressMode::live) {
     // The last column stays free: some terminals wrap as soon as it is filled. The time left is kept whole.
@@ -89,6 +91,14 @@ void Progress::begin(std::string_view what) {
 }
 
 void Progress::skip(std::size_t count) { skipped_ += count; }
+
+void Progress::known() {
+  if (!last_counts_) return;
+  last_counts_ = false;
+  --started_;
+  ++skipped_;
+  if (started_ == 0) estimate_from_ = clock_();
+}
 
 void Progress::finish() {
   if (finished_ || mode_ == ProgressMode::silent) return;

@@ -41,6 +41,8 @@ class Progress {
   void begin(std::string_view what);
   /// The next `count` runs need not be made (they are known already), so they say nothing about time left.
   void skip(std::size_t count);
+  /// The run that has begun last was known already.
+  void known();
   /// All is done: prints the number of runs and the time they took. Further calls do nothing.
   void finish();
 
@@ -53,6 +55,8 @@ class Progress {
   std::size_t columns_;
   Clock clock_;
   double start_;
+  double estimate_from_;
+  bool last_counts_ = false;
   double last_line_ = 0.0;
   std::size_t started_ = 0;
   std::size_t skipped_ = 0;

@@ -56,14 +56,13 @@ Convergence converge(Runner& runner, Scene scene, const StudyOptions& options, o
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
   for (const SchemeInfo* scheme : schemes) {
-    for (const Setting& setting : order_ladder(study.scene, *scheme, options)) {
-      if (runner.stopped()) {
-        study.interrupted = true;
-        break;
-      }
-      progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
-      study.rows.push_back(runner.run(study.scene, study.reference, *scheme, setting, options));
-    }
+    const std::vector<Row> rows = runner.run_all(
+        study.scene, study.reference, *scheme, order_ladder(study.scene, *scheme, options), options,
+        [&](const Setting& setting) {
+          progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
+        });
+    study.rows.insert(study.rows.end(), rows.begin(), rows.end());
+    study.interrupted = runner.stopped();
     if (study.interrupted) break;
     if (scheme->stepping == Stepping::fixed)
       for (std::size_t metric = 0; metric < study.scene.model->metrics().size(); ++metric)

@@ -20,12 +20,8 @@ DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& given, output:
       }
       progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
       study.rows.push_back(runner.run(study.scene, study.reference, *scheme, setting, options));
-      for (InvariantSummary& invariant :
-           summarise_invariants(*study.scene.model, study.rows.back().result.invariants)) {
-        const double start = invariant.times.empty() ? 0.0 : invariant.times.front();
-        const Drift measured = measure_drift(invariant.times, invariant.drift, start);
-        study.drifts.push_back({study.rows.size() - 1, std::move(invariant), measured});
-      }
+      for (const InvariantSummary& invariant : study.rows.back().invariants)
+        study.drifts.push_back({study.rows.size() - 1, invariant, invariant.measured});
     }
   return study;
 }

@@ -45,9 +45,9 @@ Json cost_json(const Cost& cost) {
           {"newton_iterations", cost.newton_iterations}};
 }
 
-Json invariants_json(const AnyModel& model, const Trace& trace) {
+Json invariants_json(const std::vector<InvariantSummary>& invariants) {
   Json json = Json::object();
-  for (const InvariantSummary& summary : summarise_invariants(model, trace))
+  for (const InvariantSummary& summary : invariants)
     json[summary.info.name] = {{"since", summary.info.since},
                                {"scale", summary.info.scale},
                                {"initial", scalar_or_list(summary.initial, summary.info.size)},
@@ -78,11 +78,27 @@ Json series_json(const AnyModel& model, const RunResult& result) {
   return json;
 }
 
-Json run_json(const SceneStudy& study, const Row& row) {
-  const AnyModel& model = *study.scene.model;
+Json cpu_json(const std::optional<TimingStats>& timing) {
+  if (!timing) return nullptr;
+  return {{"median", finite_or_null(timing->median)},
+          {"min", finite_or_null(timing->min)},
+          {"max", finite_or_null(timing->max)},
+          {"repetitions", timing->repetitions},
+          {"unstable", timing->unstable}};
+}
+
+}  // namespace
+
+Json run_json(const Scene& scene, const Row& row) {
+  if (!row.document.is_null()) {
+    Json json = row.document;
+    json["cpu_seconds"] = cpu_json(row.timing);
+    return json;
+  }
+  const AnyModel& model = *scene.model;
   const RunResult& result = row.result;
   Json json;
-  json["scene"] = study.scene.name;
+  json["scene"] = scene.name;
   json["integrator"] = row.scheme->name;
   json["step"] = optional(result.step);
   json["requested_step"] = optional(row.setting.step);
@@ -90,9 +106,11 @@ Json run_json(const SceneStudy& study, const Row& row) {
   json["status"] = to_string(result.status);
   json["message"] = result.message;
   json["t"] = finite_or_null(result.t);
-  json["state"] = named(model.observe(result.state));
-  json["probes"] = probes_json(model.probes(result.state));
-  json["invariants"] = invariants_json(model, result.invariants);
+  // A run that ended its process left none.
+  const bool state = !result.state.empty();
+  json["state"] = state ? named(model.observe(result.state)) : Json(nullptr);
+  json["probes"] = state ? probes_json(model.probes(result.state)) : Json(nullptr);
+  json["invariants"] = invariants_json(row.invariants);
   json["error"] = nullptr;
   json["below_bound"] = nullptr;
   if (!row.error.empty()) {
@@ -106,16 +124,12 @@ Json run_json(const SceneStudy& study, const Row& row) {
   }
   if (!result.samples.empty()) json["series"] = series_json(model, result);
   json["cost"] = cost_json(result.cost);
-  json["cpu_seconds"] = nullptr;
-  if (row.timing)
-    json["cpu_seconds"] = {{"median", finite_or_null(row.timing->median)},
-                           {"min", finite_or_null(row.timing->min)},
-                           {"max", finite_or_null(row.timing->max)},
-                           {"repetitions", row.timing->repetitions},
-                           {"unstable", row.timing->unstable}};
+  json["cpu_seconds"] = cpu_json(row.timing);
   json["flags"] = result.flags;
   return json;
 }
+
+namespace {
 
 Json scene_json(const SceneStudy& study) {
   Json json = study.scene.resolved;
@@ -145,7 +159,7 @@ Document::Document(const Catalogue& catalogue, const std::string& command) {
 
 void Document::add(const SceneStudy& study) {
   json_["scenes"].push_back(scene_json(study));
-  for (const Row& row : study.rows) json_["runs"].push_back(run_json(study, row));
+  for (const Row& row : study.rows) json_["runs"].push_back(run_json(study.scene, row));
 }
 
 void Document::add_orders(const std::string& scene, const std::vector<OrderRow>& orders) {

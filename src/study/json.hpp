@@ -9,6 +9,9 @@
 
 namespace gnomon {
 
+/// RUN of a document.
+nlohmann::ordered_json run_json(const Scene& scene, const Row& row);
+
 /// The document of a command: environment, scenes with their references, runs, orders. Numbers keep 17
 /// significant digits; what does not exist or is not finite is null.
 class Document {

@@ -54,8 +54,11 @@ std::vector<Setting> ladder(Stepping stepping, double t_end) {
 /// What a state is off the reference, in the first metric; not finite for a run that failed.
 class Judge {
  public:
+  /// A reference without states, of which only tables are made, judges nothing.
   Judge(const Scene& scene, const ReferenceStates& reference)
-      : model_(scene.model), reference_(reference.states.back()), bound_(reference.bounds.back()[0]) {}
+      : model_(scene.model), bound_(reference.bounds.back()[0]) {
+    if (!reference.states.empty()) reference_ = reference.states.back();
+  }
   double operator()(const std::vector<double>& state) const {
     return std::max(bound_, model_->distance(state, reference_)[0]);
   }
@@ -97,14 +100,42 @@ Contender of_peers(const Scene& scene, const Judge& judge, const Peer& peer) {
           }};
 }
 
-/// Fills in the levels, not yet timed.
-void find_levels(Contender& contender, const PeerPlan& plan, double t_end, const Runner& runner) {
+using Levels = std::vector<std::optional<LevelTime>>;
+
+nlohmann::ordered_json levels_json(const Levels& levels) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const auto& level : levels) {
+    json.emplace_back();
+    if (!level) continue;
+    json.back() = {{"error", level->error}, {"evaluations", level->evaluations}};
+    if (level->setting.step) json.back()["step"] = *level->setting.step;
+    if (level->setting.tol) json.back()["tol"] = *level->setting.tol;
+  }
+  return json;
+}
+
+Levels restore_levels(const nlohmann::ordered_json& json) {
+  Levels levels;
+  for (const auto& each : json) {
+    levels.emplace_back();
+    if (each.is_null()) continue;
+    LevelTime level{{}, each.at("error"), each.at("evaluations"), {}};
+    if (each.contains("step")) level.setting.step = each.at("step");
+    if (each.contains("tol")) level.setting.tol = each.at("tol");
+    levels.back() = level;
+  }
+  return levels;
+}
+
+/// The levels, not yet timed.
+Levels find_levels(const Contender& contender, const PeerPlan& plan, double t_end, const Runner& runner) {
+  Levels levels;
   const std::vector<Setting> settings = ladder(contender.stepping, t_end);
   std::vector<double> errors;
   std::vector<long> evaluations;
   const double tightest = *std::min_element(plan.levels.begin(), plan.levels.end());
   for (const Setting& setting : settings) {
-    if (runner.stopped()) return;
+    if (runner.stopped()) return levels;
     const Outcome outcome = contender.run(setting);
     errors.push_back(outcome.error);
     evaluations.push_back(outcome.evaluations);
@@ -113,10 +144,11 @@ void find_levels(Contender& contender, const PeerPlan& plan, double t_end, const
   if (contender.row.closed_form) errors.resize(3, errors.front());
   for (double level : plan.levels) {
     const auto found = loosest_that_counts(errors, level);
-    contender.row.levels.push_back(
-        found ? std::optional(LevelTime{settings[*found], errors[*found], evaluations[*found], {}})
-              : std::nullopt);
+    levels.push_back(found
+                         ? std::optional(LevelTime{settings[*found], errors[*found], evaluations[*found], {}})
+                         : std::nullopt);
   }
+  return levels;
 }
 
 std::string setting_text(const Setting& setting) {
@@ -148,7 +180,7 @@ PeerStudy measure_peers(Runner& runner, const PeerPlan& plan, bool quick) {
   StudyOptions options;
   options.integrators = plan.integrators;
   const ReferenceStates reference = runner.reference(scene, options);
-  if (reference.states.empty()) return study;
+  if (reference.kind.empty()) return study;
   const Judge judge(scene, reference);
 
   std::vector<Contender> contenders;
@@ -159,18 +191,27 @@ PeerStudy measure_peers(Runner& runner, const PeerPlan& plan, bool quick) {
 
   std::vector<TimedTask> tasks;
   std::vector<LevelTime*> timed;
-  for (Contender& contender : contenders) find_levels(contender, plan, scene.t_end, runner);
+  const nlohmann::ordered_json problem{
+      {"scene", scene.name}, {"physics", scene.physics_hash()}, {"levels", plan.levels}};
+  std::vector<std::string> names;
+  for (Contender& contender : contenders) {
+    const auto kept =
+        runner.measure("levels", {{"of", problem}, {"integrator", contender.row.name}}, false,
+                       [&] { return levels_json(find_levels(contender, plan, scene.t_end, runner)); });
+    contender.row.levels = kept.is_null() ? Levels(plan.levels.size()) : restore_levels(kept);
+  }
   for (Contender& contender : contenders)
     for (auto& level : contender.row.levels)
       if (level) {
         timed.push_back(&*level);
         tasks.push_back({[&contender, setting = level->setting] { return contender.run(setting).seconds; }});
+        names.push_back(fmt::format("{}, {:.17g}, {:.17g}", contender.row.name,
+                                    level->setting.step.value_or(0.0), level->setting.tol.value_or(0.0)));
       }
   TimingPlan timing;
   timing.repetitions = quick ? 5 : 11;
   timing.min_seconds = quick ? 0.005 : 0.02;
-  timing.timer_cost = timer_cost();
-  const auto stats = measure_interleaved(tasks, timing, [&] { return runner.stopped(); });
+  const auto stats = runner.time("peer times", problem, names, tasks, timing);
   for (std::size_t k = 0; k < stats.size(); ++k) timed[k]->run = stats[k];
   for (Contender& contender : contenders) study.rows.push_back(std::move(contender.row));
   return study;

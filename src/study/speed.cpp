@@ -10,6 +10,19 @@
 namespace gnomon {
 namespace {
 
+/// What the two give, not yet timed.
+nlohmann::ordered_json try_out(const Yardstick& yardstick, const void* model, const RunSpec& spec,
+                               RunResult (*run)(const void*, const RunSpec&)) {
+  const RunResult wrapped = run(model, spec);
+  std::vector<double> plain;
+  long evaluations = 0;
+  yardstick.run(model, spec.t_end, yardstick.setting(), plain, evaluations);
+  double difference = 0.0;
+  for (std::size_t k = 0; k < plain.size(); ++k)
+    difference = std::max(difference, std::abs(plain[k] - wrapped.state[k]));
+  return {{"evaluations", wrapped.cost.rhs}, {"plain_evaluations", evaluations}, {"difference", difference}};
+}
+
 WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
   const Scene scene = load_scene(runner.catalogue(), std::string(yardstick.scene));
   const auto run = runner.catalogue().pair(yardstick.integrator, *scene.model)->run;
@@ -22,14 +35,18 @@ WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
     spec.step = yardstick.step;
   spec.record = false;
 
+  const nlohmann::ordered_json identity{
+      {"scene", scene.name}, {"physics", scene.physics_hash()}, {"setting", yardstick.setting()}};
+  const std::vector<std::string> names{std::string(yardstick.integrator), std::string(yardstick.name)};
+  const auto tried = runner.measure("wrapper", {{"of", identity}, {"names", names}}, false,
+                                    [&] { return try_out(yardstick, model, spec, run); });
   WrapperTime time{&yardstick, 0, 0, 0.0, {}, {}};
-  const RunResult wrapped = run(model, spec);
-  std::vector<double> plain;
-  yardstick.run(model, spec.t_end, yardstick.setting(), plain, time.plain_evaluations);
-  time.evaluations = wrapped.cost.rhs;
-  for (std::size_t k = 0; k < plain.size(); ++k)
-    time.difference = std::max(time.difference, std::abs(plain[k] - wrapped.state[k]));
-
+  if (!tried.is_null()) {
+    time.evaluations = tried.at("evaluations");
+    time.plain_evaluations = tried.at("plain_evaluations");
+    time.difference =
+        tried.at("difference").is_number() ? tried.at("difference").get<double>() : std::nan("");
+  }
   const std::vector<TimedTask> tasks{{[&] { return run(model, spec).cpu_seconds; }}, {[&] {
                                        std::vector<double> state;
                                        long evaluations = 0;
@@ -38,8 +55,7 @@ WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
                                      }}};
   TimingPlan plan;
   plan.repetitions = 11;
-  plan.timer_cost = timer_cost();
-  const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
+  const auto stats = runner.time("wrapper times", identity, names, tasks, plan);
   time.wrapped = stats[0];
   time.plain = stats[1];
   return time;
@@ -54,6 +70,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
   SpeedStudy study;
   std::vector<Scene> scenes;
   std::vector<TimedTask> tasks;
+  std::vector<std::string> names;
   const auto add = [&](const SpeedPlan& plan, const std::string& instructions) {
     SceneChanges changes;
     changes.t_end = plan.step * static_cast<double>(plan.steps);
@@ -73,6 +90,8 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
       const auto run = runner.catalogue().pair(scheme->name, *scenes.back().model)->run;
       const std::shared_ptr<const AnyModel> model = scenes.back().model;
       tasks.push_back({[=] { return run(model->get(), spec).cpu_seconds; }});
+      names.push_back(fmt::format("{} {}, {}, {:.17g}, {:.17g}", plan.scene, scenes.back().physics_hash(),
+                                  scheme->name, spec.step.value_or(0.0), plan.newton_tol));
       study.steps.push_back({plan.scene,
                              std::string(model->load_class()),
                              scheme,
@@ -93,8 +112,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
   TimingPlan plan;
   plan.repetitions = 7;
   if (quick) plan.min_seconds = 0.005;
-  plan.timer_cost = timer_cost();
-  const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
+  const auto stats = runner.time("step times", {}, names, tasks, plan);
   for (std::size_t k = 0; k < stats.size(); ++k) study.steps[k].run = stats[k];
   const auto is_planned = [&](const Yardstick& yardstick) {
     const std::string model = load_scene(runner.catalogue(), std::string(yardstick.scene)).model_name;

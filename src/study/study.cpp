@@ -5,12 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "src/error.hpp"
+#include "src/measure/timing.hpp"
 #include "src/nearest.hpp"
 #include "src/solver_reference.hpp"
+#include "src/study/keeper.hpp"
+#include "src/study/kept_row.hpp"
 
 namespace gnomon {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+/// Without a sign of life for so long a measurement other than a run hangs, s.
+constexpr double longest_silence = 300.0;
+}  // namespace
 
 std::string Setting::text() const {
   if (step) return fmt::format("step {:.4g}", *step);
@@ -38,17 +49,80 @@ ReferenceStates Runner::reference(const Scene& scene, const StudyOptions& option
     none.message = "not asked for";
     return none;
   }
-  return references_.get(scene, {scene.t_end},
-                         [&] { return solver_reference(catalogue_, scene, 20.0, &stop_); });
+  const Json identity{{"scene", scene.name}, {"physics", scene.physics_hash()}};
+  if (keeper_ && !keeper_->measures()) {
+    const Json kept = keeper_->recall("reference", identity);
+    if (!kept.is_null()) return restore_reference(kept);
+    ReferenceStates none;
+    none.message = "not in the store";
+    return none;
+  }
+  const ReferenceStates& reference = references_.get(
+      scene, {scene.t_end}, [&] { return solver_reference(catalogue_, scene, 20.0, &stop_); });
+  if (keeper_ && !stopped()) keeper_->remember("reference", identity, reference_json(reference));
+  return reference;
 }
 
 Row Runner::run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
                 const Setting& setting, const StudyOptions& options) {
+  return run_all(scene, reference, scheme, {setting}, options, [](const Setting&) {}).front();
+}
+
+std::vector<Row> Runner::run_all(const Scene& scene, const ReferenceStates& reference,
+                                 const SchemeInfo& scheme, const std::vector<Setting>& settings,
+                                 const StudyOptions& options,
+                                 const std::function<void(const Setting&)>& begin,
+                                 const std::function<bool(const Row&)>& enough) {
+  std::vector<Row> rows;
+  if (!keeper_) {
+    for (const Setting& setting : settings) {
+      if (stopped() && !rows.empty()) break;
+      begin(setting);
+      rows.push_back(run_here(scene, reference, scheme, setting, options));
+      if (enough && enough(rows.back())) break;
+    }
+    return rows;
+  }
+  std::vector<Json> identities;
+  for (const Setting& setting : settings)
+    identities.push_back({{"scene", scene.name},
+                          {"physics", scene.physics_hash()},
+                          {"integrator", scheme.name},
+                          {"step", setting.step ? Json(*setting.step) : Json()},
+                          {"tol", setting.tol ? Json(*setting.tol) : Json()},
+                          {"samples", options.samples},
+                          {"watch", options.watch},
+                          {"max_steps", options.max_steps},
+                          {"time_limit", options.time_limit},
+                          {"newton_tol", options.newton_tol},
+                          {"reference", reference.kind}});
+  // A run looks at its limit itself; one that never comes to do so is ended.
+  keeper_->set_seconds(options.time_limit + std::max(1.0, 0.1 * options.time_limit));
+  keeper_->get_all(
+      "run", identities, false,
+      [&](std::size_t k, Pulse&) {
+        return row_json(scene, run_here(scene, reference, scheme, settings[k], options), options.watch > 256);
+      },
+      [&](std::size_t k) { begin(settings[k]); },
+      [&](std::size_t k, const Keeper::Kept& kept) {
+        rows.push_back(kept.status == Status::ok
+                           ? restore_row(scene, scheme, settings[k], kept.result)
+                           : failed_row(scene, scheme, settings[k], kept.status, kept.message));
+        return !(enough && enough(rows.back()));
+      });
+  return rows;
+}
+
+Row Runner::run_here(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
+                     const Setting& setting, const StudyOptions& options) {
   const Pair* pair = catalogue_.pair(scheme.name, *scene.model);
   Row row;
   row.scheme = &scheme;
   row.setting = setting;
   row.result = pair->run(scene.model->get(), spec(scene, setting, options));
+  row.invariants = summarise_invariants(*scene.model, row.result.invariants);
+  for (InvariantSummary& invariant : row.invariants) thin(invariant);
+  row.result.invariants = {};
   if (row.result.status != Status::ok || reference.states.empty()) return row;
   row.error = scene.model->distance(row.result.state, reference.states.back());
   for (std::size_t k = 0; k < row.error.size(); ++k) {
@@ -63,6 +137,7 @@ void Runner::time(const Scene& scene, std::vector<Row>& rows, const StudyOptions
   if (!options.timing) return;
   std::vector<Row*> timed;
   std::vector<TimedTask> tasks;
+  std::vector<std::string> names;
   for (Row& row : rows) {
     if (row.result.status != Status::ok) continue;
     RunSpec fast = spec(scene, row.setting, options);
@@ -71,12 +146,61 @@ void Runner::time(const Scene& scene, std::vector<Row>& rows, const StudyOptions
     const void* model = scene.model->get();
     timed.push_back(&row);
     tasks.push_back({[=] { return run(model, fast).cpu_seconds; }});
+    names.push_back(fmt::format("{}, {:.17g}, {:.17g}", row.scheme->name, row.setting.step.value_or(0.0),
+                                row.setting.tol.value_or(0.0)));
   }
-  TimingPlan plan;
-  plan.timer_cost = timer_cost();
-  const std::vector<TimingStats> stats = measure_interleaved(tasks, plan, [this] { return stopped(); });
+  const Json identity{{"scene", scene.name},
+                      {"physics", scene.physics_hash()},
+                      {"max_steps", options.max_steps},
+                      {"time_limit", options.time_limit},
+                      {"newton_tol", options.newton_tol}};
+  const std::vector<TimingStats> stats = time("times", identity, names, tasks, {});
   for (std::size_t k = 0; k < timed.size(); ++k)
     if (stats[k].repetitions > 0) timed[k]->timing = stats[k];
+}
+
+std::vector<TimingStats> Runner::time(std::string_view kind, const Json& identity,
+                                      const std::vector<std::string>& names,
+                                      const std::vector<TimedTask>& tasks, TimingPlan plan) {
+  plan.timer_cost = timer_cost();
+  if (!keeper_) return measure_interleaved(tasks, plan, [this] { return stopped(); });
+  keeper_->set_seconds(longest_silence);
+  std::vector<TimingStats> all(tasks.size());
+  // The places of the tasks that have not ended their process.
+  std::vector<std::size_t> places(tasks.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  while (!places.empty()) {
+    Json which{{"of", identity}, {"repetitions", plan.repetitions}, {"min_seconds", plan.min_seconds}};
+    for (const std::size_t k : places) which["tasks"].push_back(names[k]);
+    const Keeper::Kept kept = keeper_->get(kind, which, true, [&](Pulse& pulse) {
+      std::vector<TimedTask> beating;
+      for (std::size_t k = 0; k < places.size(); ++k)
+        beating.push_back({[&pulse, &task = tasks[places[k]], k] {
+          pulse.beat(static_cast<int>(k));
+          return task.run();
+        }});
+      Json json = Json::array();
+      for (const TimingStats& stats : measure_interleaved(beating, plan, {}))
+        json.push_back(timing_json(stats));
+      return json;
+    });
+    if (kept.status == Status::ok) {
+      for (std::size_t k = 0; k < places.size(); ++k) all[places[k]] = restore_timing(kept.result.at(k));
+      return all;
+    }
+    const auto culprit = static_cast<std::size_t>(kept.task);
+    if (kept.status == Status::interrupted || culprit >= places.size()) return all;
+    places.erase(places.begin() + kept.task);
+  }
+  return all;
+}
+
+nlohmann::ordered_json Runner::measure(std::string_view kind, const Json& identity, bool timed,
+                                       const std::function<Json()>& work) {
+  if (!keeper_) return work();
+  keeper_->set_seconds(longest_silence);
+  const Keeper::Kept kept = keeper_->get(kind, identity, timed, [&](Pulse&) { return work(); });
+  return kept.status == Status::ok ? kept.result : Json();
 }
 
 std::vector<const SchemeInfo*> select(const Catalogue& catalogue, const Scene& scene,
@@ -150,13 +274,28 @@ std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const 
       summary.final.assign(value, value + size);
       summary.max_drift = std::isnan(drift) ? drift : std::max(summary.max_drift, std::abs(drift));
     }
-    summary.slope = summary.times.empty()
-                        ? std::nan("")
-                        : measure_drift(summary.times, summary.drift, summary.times.front()).slope;
+    if (!summary.times.empty())
+      summary.measured = measure_drift(summary.times, summary.drift, summary.times.front());
+    summary.slope = summary.measured.slope;
     offset += size;
     summaries.push_back(std::move(summary));
   }
   return summaries;
+}
+
+void thin(InvariantSummary& summary) {
+  std::vector<double> times, drift;
+  double largest = 0.0, next = 0.0;
+  for (std::size_t k = 0; k < summary.times.size(); ++k) {
+    largest = std::max(largest, std::abs(summary.drift[k]));
+    const double t = summary.times[k];
+    if (t <= 0.0 || (t < next && k + 1 < summary.times.size())) continue;
+    times.push_back(t);
+    drift.push_back(largest);
+    next = t * std::pow(10.0, 1.0 / 12.0);
+  }
+  summary.times = std::move(times);
+  summary.drift = std::move(drift);
 }
 
 }  // namespace gnomon

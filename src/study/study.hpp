@@ -1,10 +1,12 @@
 #pragma once
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "src/catalogue.hpp"
+#include "src/measure/drift.hpp"
 #include "src/measure/timing.hpp"
 #include "src/output/progress.hpp"
 #include "src/reference.hpp"
@@ -12,6 +14,8 @@
 #include "src/scene.hpp"
 
 namespace gnomon {
+
+class Keeper;
 
 /// What a command was told about its runs.
 struct StudyOptions {
@@ -36,6 +40,18 @@ struct Setting {
   std::string text() const;
 };
 
+/// An invariant along a run, as its drift relative to its scale.
+struct InvariantSummary {
+  InvariantInfo info;
+  std::vector<double> initial;  ///< at `since`, or at the start
+  std::vector<double> final;
+  double max_drift = 0.0;
+  double slope = 0.0;         ///< of the drift, 1/s
+  Drift measured;             ///< all that is known of the drift
+  std::vector<double> times;  ///< from `since` on
+  std::vector<double> drift;  ///< signed for a scalar, a norm for a vector
+};
+
 /// One run with its error against the scene's reference.
 struct Row {
   const SchemeInfo* scheme = nullptr;
@@ -44,6 +60,9 @@ struct Row {
   std::vector<double> error;  ///< one a metric; empty when there is no reference or the run did not end well
   std::vector<bool> below_bound;  ///< the error is not above the reference's bound, which stands in its place
   std::optional<TimingStats> timing;
+  /// Of the run, thinned to twelve points a decade of its time, each with the largest |drift| so far.
+  std::vector<InvariantSummary> invariants;
+  nlohmann::ordered_json document;  ///< what was stored of the run, as documents show it; null: not stored
   long evaluations() const { return result.cost.rhs; }
 };
 
@@ -65,17 +84,37 @@ class Runner {
   bool stopped() const { return stop_.load(std::memory_order_relaxed); }
   /// The reference at t_end, or an empty one with --no-reference.
   ReferenceStates reference(const Scene& scene, const StudyOptions& options);
+  /// Keeps every measurement from here on, made in a child process of its own; see Keeper.
+  void keep_in(Keeper* keeper) { keeper_ = keeper; }
+  Keeper* keeper() const { return keeper_; }
   Row run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
           const Setting& setting, const StudyOptions& options);
+  /// Runs with all the settings one after the other, up to the first that is `enough`; fewer if the user
+  /// interrupts. `begin` is called before each.
+  std::vector<Row> run_all(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
+                           const std::vector<Setting>& settings, const StudyOptions& options,
+                           const std::function<void(const Setting&)>& begin,
+                           const std::function<bool(const Row&)>& enough = {});
   /// Times the rows that ended well, interleaved, each at least 5 times and 20 ms.
   void time(const Scene& scene, std::vector<Row>& rows, const StudyOptions& options);
+  /// Times tasks of any kind in turn. `identity` says what is timed and `names`, one a task, what each does.
+  /// One that ends its process has no times.
+  std::vector<TimingStats> time(std::string_view kind, const nlohmann::ordered_json& identity,
+                                const std::vector<std::string>& names, const std::vector<TimedTask>& tasks,
+                                TimingPlan plan);
+  /// What `work` gives, whether kept or made; null if it failed.
+  nlohmann::ordered_json measure(std::string_view kind, const nlohmann::ordered_json& identity, bool timed,
+                                 const std::function<nlohmann::ordered_json()>& work);
 
  private:
+  Row run_here(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
+               const Setting& setting, const StudyOptions& options);
   RunSpec spec(const Scene& scene, const Setting& setting, const StudyOptions& options) const;
 
   const Catalogue& catalogue_;
   ReferenceStore& references_;
   const std::atomic<bool>& stop_;
+  Keeper* keeper_ = nullptr;
 };
 
 /// The integrators a study is to run on a scene. Throws UsageError for a name that does not exist or does not
@@ -90,16 +129,8 @@ std::vector<double> step_ladder(const Scene& scene, int count, double ratio);
 std::vector<Setting> settings(const SchemeInfo& scheme, const StudyOptions& options,
                               const std::vector<double>& steps, const std::vector<double>& tols);
 
-/// An invariant along a run, as its drift relative to its scale.
-struct InvariantSummary {
-  InvariantInfo info;
-  std::vector<double> initial;  ///< at `since`, or at the start
-  std::vector<double> final;
-  double max_drift = 0.0;
-  double slope = 0.0;         ///< of the drift, 1/s
-  std::vector<double> times;  ///< from `since` on
-  std::vector<double> drift;  ///< signed for a scalar, a norm for a vector
-};
 std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const Trace& trace);
+/// Twelve points a decade of time of the largest |drift| so far: enough to see growth.
+void thin(InvariantSummary& summary);
 
 }  // namespace gnomon

@@ -27,9 +27,9 @@ Scene load(const Catalogue& catalogue, const std::string& name, std::optional<do
 
 /// Why a run does not count as one that survived: its status, or an invariant off by a hundredth of its
 /// scale.
-std::string failure_of(const Scene& scene, const RunResult& result) {
-  if (result.status != Status::ok) return std::string(to_string(result.status));
-  for (const InvariantSummary& invariant : summarise_invariants(*scene.model, result.invariants))
+std::string failure_of(const Row& row) {
+  if (row.result.status != Status::ok) return std::string(to_string(row.result.status));
+  for (const InvariantSummary& invariant : row.invariants)
     if (!(invariant.max_drift <= 0.01))
       return fmt::format("{} off by {:.1g}", invariant.info.name, invariant.max_drift);
   return "";
@@ -42,18 +42,19 @@ Breaking find_breaking(Runner& runner, const SurveyClass& of, const SchemeInfo& 
   const Scene scene = load(runner.catalogue(), of.plan.scene, std::min(500.0 * scale, of.plan.t_end));
   StudyOptions options;
   options.time_limit = 20.0;
+  std::vector<Setting> settings;
+  for (int k = -6; k <= 4; ++k) settings.push_back({scale * std::pow(2.0, k), std::nullopt});
   Breaking breaking;
-  for (int k = -6; k <= 4; ++k) {
-    Setting setting;
-    setting.step = scale * std::pow(2.0, k);
-    const Row row = runner.run(scene, {}, scheme, setting, options);
-    const std::string failure = failure_of(scene, row.result);
-    if (!failure.empty()) {
-      breaking.breaks = setting.step;
+  for (const Row& row : runner.run_all(
+           scene, {}, scheme, settings, options, [](const Setting&) {},
+           [](const Row& each) { return !failure_of(each).empty(); })) {
+    const std::string failure = failure_of(row);
+    if (failure.empty()) {
+      breaking.survived = *row.setting.step;
+    } else {
+      breaking.breaks = row.setting.step;
       breaking.how = failure;
-      return breaking;
     }
-    breaking.survived = *setting.step;
   }
   return breaking;
 }
@@ -91,6 +92,7 @@ void add_drift(Runner& runner, SurveyClass& of, const StudyOptions& options, out
 
 void add_times(Runner& runner, std::vector<SurveyClass>& classes, bool quick) {
   std::vector<TimedTask> tasks;
+  std::vector<std::string> names;
   std::vector<SurveyEntry*> timed;
   for (SurveyClass& of : classes)
     for (SurveyEntry& entry : of.entries) {
@@ -104,13 +106,14 @@ void add_times(Runner& runner, std::vector<SurveyClass>& classes, bool quick) {
         const RunResult result = run(model->get(), spec);
         return result.status == Status::ok ? result.cpu_seconds : std::nan("");
       }});
+      names.push_back(fmt::format("{} {}, {}, {:.17g} x {}", of.scene.name, of.scene.physics_hash(),
+                                  entry.scheme->name, of.plan.step, steps));
       entry.timed_steps = steps;
       timed.push_back(&entry);
     }
   TimingPlan plan;
-  plan.timer_cost = timer_cost();
   if (quick) plan.min_seconds = 0.005;
-  const auto stats = measure_interleaved(tasks, plan, [&] { return runner.stopped(); });
+  const auto stats = runner.time("survey times", {}, names, tasks, plan);
   for (std::size_t k = 0; k < stats.size(); ++k) timed[k]->run = stats[k];
 }
 
@@ -158,11 +161,12 @@ output::Cell breaking_cell(const SurveyClass& of, const SurveyEntry& entry) {
 
 }  // namespace
 
-std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans) {
+std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans, bool quick) {
   std::size_t runs = 1;  // the times
   for (const SurveyPlan& plan : plans) {
     const Scene scene = load(catalogue, plan.scene, std::nullopt);
     StudyOptions options;
+    options.quick = quick;
     options.integrators = surveyed(catalogue, scene);
     runs += converge_runs(catalogue, scene, options) + 2 * options.integrators.size();
   }

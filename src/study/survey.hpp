@@ -52,7 +52,7 @@ Survey survey(Runner& runner, const std::string& model, const std::vector<Survey
               const StudyOptions& options, output::Progress& progress);
 
 /// Number of parts that `survey` reports as progress.
-std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans);
+std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan>& plans, bool quick);
 
 /// Orders, evaluations and time of a step.
 output::Table survey_cost_table(const Survey& survey);

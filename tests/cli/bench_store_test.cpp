@@ -1,0 +1,190 @@
+// `gnomon bench` and `gnomon report`: a study that is killed and goes on, and its tables from the store
+// alone.
+#include <algorithm>
+#include <random>
+
+#include "tests/cli/document.hpp"
+
+namespace fs = std::filesystem;
+using namespace gnomon::test;
+using namespace gnomon::test::cli;
+
+namespace {
+
+constexpr const char* small_study = R"(
+converge = ["asymmetric-free-top", "asymmetric-heavy-top"]
+quick_converge = ["asymmetric-free-top"]
+integrators = ["munjiza", "rkmk4"]
+[[drift]]
+scene = "symmetric-free-top"
+t_end = 50.0
+quick_t_end = 20.0
+step  = 0.05
+tol   = 1e-6
+integrators = ["munjiza", "cvode-adams"]
+)";
+constexpr std::size_t small_runs = 2 * 17 + 2;
+
+struct StudyFolder {
+  TemporaryFolder folder;
+  fs::path out = folder.path() / "out";
+  explicit StudyFolder(const std::string& study = small_study) {
+    write_text(folder.path() / "mine.toml", study);
+  }
+  Words words(const Words& more = {}) const {
+    Words all{"bench", "--study", "mine.toml", "--quick", "--out", "out"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  Outcome bench(const Words& more = {}) const { return run_program(words(more), folder.path()); }
+  std::string file(const std::string& name) const { return content_of(out / name); }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> list;
+    std::istringstream text(file("runs.jsonl"));
+    for (std::string line; std::getline(text, line);) list.push_back(line);
+    return list;
+  }
+  /// Keys of the runs, sorted.
+  Words keys() const {
+    Words all;
+    for (const std::string& line : lines()) {
+      const Json record = Json::parse(line);
+      if (record["kind"] == "run") all.push_back(record["key"]);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+};
+
+bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+const Words table_files{"converge-asymmetric-free-top.md",
+                        "converge-asymmetric-free-top.csv",
+                        "mine-orders.md",
+                        "drift-symmetric-free-top.md",
+                        "drift-symmetric-free-top.csv",
+                        "converge-asymmetric-free-top.json",
+                        "drift-symmetric-free-top.json",
+                        "report.html",
+                        "README.md"};
+
+}  // namespace
+
+TEST_CASE("bench: a study of one's own is measured once, and reported from the store alone", "[cli][store]") {
+  const StudyFolder study;
+  const Outcome first = study.bench();
+  INFO(first.err);
+  REQUIRE(first.exit_code == 0);
+  const Words keys = study.keys();
+  CHECK(keys.size() == small_runs);
+  CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
+  for (const std::string& name : table_files) CHECK(fs::exists(study.out / name));
+  for (const std::string& line : study.lines()) CHECK(Json::accept(line));
+
+  // Nothing but the store is left; the report makes the same files again.
+  std::map<std::string, std::string> before;
+  for (const std::string& name : table_files) before[name] = study.file(name);
+  for (const fs::directory_entry& each : fs::directory_iterator(study.out))
+    if (each.path().filename() != "runs.jsonl") fs::remove(each.path());
+  const std::string store = study.file("runs.jsonl");
+  const Outcome report = run_program({"report", "out"}, study.folder.path());
+  INFO(report.err);
+  CHECK(report.exit_code == 0);
+  CHECK(report.err.empty());
+  CHECK(study.file("runs.jsonl") == store);
+  for (const std::string& name : table_files) {
+    INFO(name);
+    CHECK(study.file(name) == before[name]);
+  }
+
+  // A second call measures nothing; --fresh measures all.
+  const Outcome second = study.bench();
+  CHECK(second.exit_code == 0);
+  CHECK(says(second.err, "known already"));
+  CHECK(study.keys() == keys);
+  CHECK(study.lines().size() == std::count(store.begin(), store.end(), '\n') + 1U);  // one more session
+  const Outcome fresh = study.bench({"--fresh"});
+  CHECK(says(fresh.err, "put aside in runs.previous.jsonl"));
+  CHECK(study.keys() == keys);
+  CHECK(says(study.file("runs.previous.jsonl"), store));
+  CHECK_FALSE(says(study.file("runs.jsonl"), store));
+}
+
+TEST_CASE("bench: a study killed again and again is finished by the next calls", "[cli][store]") {
+  const StudyFolder whole, killed;
+  REQUIRE(whole.bench().exit_code == 0);
+  std::mt19937 random(7);
+  std::size_t last = 0;
+  for (std::size_t attempt = 1; attempt <= 4; ++attempt) {
+    {
+      Call call(killed.words({"--quiet"}), killed.folder.path());
+      const std::size_t wanted = 7 * attempt + random() % 3;
+      for (int wait = 0; wait < 20000; ++wait) {
+        if (fs::exists(killed.out / "runs.jsonl") && killed.lines().size() >= wanted) break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      // The end of the scope is a kill -9.
+    }
+    const std::vector<std::string> lines = killed.lines();
+    CHECK(lines.size() >= std::max<std::size_t>(last, 7 * attempt));
+    for (std::size_t k = 0; k + 1 < lines.size(); ++k) CHECK(Json::accept(lines[k]));
+    last = lines.size() - 1;
+    // A line that a kill has cut off.
+    std::ofstream(killed.out / "runs.jsonl", std::ios::app) << "{\"key\":\"12";
+  }
+  const Outcome end = killed.bench();
+  INFO(end.err);
+  CHECK(end.exit_code == 0);
+  CHECK(says(end.err, "the last line is cut off and ignored"));
+  CHECK(killed.keys() == whole.keys());
+  for (const char* name :
+       {"converge-asymmetric-free-top.csv", "mine-orders.csv", "drift-symmetric-free-top.csv"})
+    CHECK(killed.file(name) == whole.file(name));
+}
+
+TEST_CASE("bench: an interruption keeps what is finished", "[cli][store]") {
+  const StudyFolder study(
+      "[[drift]]\nscene = \"asymmetric-free-top\"\nt_end = 1.0\nquick_t_end = 20.0\nstep = 0.05\ntol = 1e-6\n"
+      "integrators = [\"munjiza\"]\n"
+      "[[drift]]\nscene = \"symmetric-free-top\"\nt_end = 1.0\nquick_t_end = 1e9\nstep = 0.001\ntol = 1e-6\n"
+      "integrators = [\"munjiza\"]\n");
+  Call call(study.words(), study.folder.path());
+  for (int wait = 0; wait < 20000; ++wait) {
+    if (fs::exists(study.out / "drift-asymmetric-free-top.md")) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  call.interrupt();
+  const Outcome outcome = call.wait();
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 3);
+  CHECK(says(outcome.err, "interrupted; what was measured is kept in out/runs.jsonl"));
+  CHECK(study.keys().size() == 1);
+  CHECK_FALSE(fs::exists(study.out / "drift-symmetric-free-top.md"));
+
+  // What is not in the store is said, and the rest reported.
+  const Outcome report = run_program({"report", "out"}, study.folder.path());
+  CHECK(report.exit_code == 0);
+  CHECK(says(report.err, "gnomon: drift-symmetric-free-top: its measurements are not in the store"));
+  CHECK(says(study.file("report.html"), "drift-asymmetric-free-top"));
+}
+
+TEST_CASE("bench: a store without a session, or none, is refused", "[cli][store]") {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const Words& words) {
+    const Outcome outcome = run_program(words, folder.path());
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.out.empty());
+    return outcome.err;
+  };
+  CHECK(refusal({"report"}) ==
+        "gnomon: report: found 0 folders, expected one that `gnomon bench` has written\n");
+  CHECK(refusal({"report", "none"}) ==
+        "gnomon: none: found no runs.jsonl, expected a folder that `gnomon bench` has written\n");
+  write_text(folder.path() / "runs.jsonl", "{\"key\":\"1\",\"kind\":\"run\"}\n");
+  CHECK(refusal({"report", "."}) ==
+        "gnomon: ./runs.jsonl: found no session of `gnomon bench`, expected one\n");
+  write_text(folder.path() / "runs.jsonl", "{\"key\":\"1\",\"kind\":\"session\",\"code\":7}\n");
+  CHECK(says(refusal({"report", "."}), "found a session of another version of gnomon"));
+  CHECK(says(refusal({"bench", "--study", "none.toml", "--out", "new"}), "none.toml"));
+  CHECK(folder.entries() == 1);
+}
