@@ -27,7 +27,7 @@ RunSpec Runner::spec(const Scene& scene, const Setting& setting, const StudyOpti
   spec.watch = options.watch;
   spec.max_steps = options.max_steps;
   spec.time_limit = options.time_limit;
-  spec.newton_tol = options.newton_tol;
+  spec.scheme = options.scheme;
   spec.stop = &stop_;
   return spec;
 }
@@ -48,6 +48,7 @@ Row Runner::run(const Scene& scene, const ReferenceStates& reference, const Sche
   Row row;
   row.scheme = &scheme;
   row.setting = setting;
+  row.options = options.scheme;
   row.result = pair->run(scene.model->get(), spec(scene, setting, options));
   if (row.result.status != Status::ok || reference.states.empty()) return row;
   row.error = scene.model->distance(row.result.state, reference.states.back());
