@@ -27,7 +27,7 @@ struct RunSpec {
   bool record = true;            ///< false: only integrate, to be timed
   long max_steps = 100'000'000;  ///< steps
   double time_limit = 600.0;     ///< s of wall-clock time
-  double newton_tol = 1e-10;     ///< of implicit fixed-step schemes, relative residual
+  SchemeOptions scheme;          ///< of schemes of equal steps
   const std::atomic<bool>* stop = nullptr;  ///< becomes true when the user interrupts
 };
 
@@ -101,11 +101,11 @@ class Recorder {
   std::size_t count_ = 0;
 };
 
-/// The scheme's start; an implicit one is told how exactly to solve its equations.
+/// The scheme's start, with the user's options where it takes any.
 template <Model M, FixedStepOn<M> S>
 auto start_of(const M& model, const RunSpec& spec) {
-  if constexpr (requires { S::start(model, model.initial(), spec.newton_tol); })
-    return S::start(model, model.initial(), spec.newton_tol);
+  if constexpr (requires { S::start(model, model.initial(), spec.scheme); })
+    return S::start(model, model.initial(), spec.scheme);
   else
     return S::start(model, model.initial());
 }
@@ -144,6 +144,9 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
   const long last = std::min(plan.count, spec.max_steps);
 
   auto state = detail::start_of<M, S>(model, spec);
+  std::string caution;
+  if constexpr (requires { S::caution(model, state, plan.h); }) caution = S::caution(model, state, plan.h);
+  if (!caution.empty()) result.flags.push_back(caution);
   auto checkpoint = state;
   const auto finite = [&](const auto& s) { return all_finite(model.flatten(S::view(model, s))); };
   detail::Recorder<M> recorder(model, result);
@@ -177,6 +180,7 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
       state = checkpoint;
       result.status = failure;
       result.message = failure_message(failure, n, static_cast<double>(n) * plan.h, plan.h);
+      if (!caution.empty()) result.message += ": " + caution;
       break;
     }
     if (next < stops.size() && stops[next].index == n) {

@@ -28,6 +28,13 @@ constexpr std::string_view to_string(Stepping stepping) {
   return "";
 }
 
+/// What a user may tell a scheme of equal steps; each takes what concerns it.
+struct SchemeOptions {
+  double newton_tol = 1e-10;              ///< of nonlinear equations, relative residual
+  std::optional<double> spectral_radius;  ///< at infinite frequency; none: the scheme's own default
+  bool modified_newton = false;           ///< one tangent a step for as long as it serves
+};
+
 /// The order of the error of a scheme on models of one load class.
 struct DeclaredOrder {
   std::string_view load_class;
@@ -51,6 +58,8 @@ struct SchemeInfo {
   bool control = false;                   ///< a negative control: only run when asked for by name
   /// Orders of the angular momentum of a body, where they differ from those of its orientation.
   std::array<DeclaredOrder, 2> momentum_orders{};
+  /// Range of SchemeOptions::spectral_radius; none where the scheme does not take it.
+  std::optional<std::array<double, 2>> spectral_radii{};
 
   constexpr std::optional<double> order_for(std::string_view load_class) const {
     for (const DeclaredOrder& declared : orders)
@@ -73,8 +82,8 @@ concept Scheme = requires {
 
 /// A scheme of equal steps on a model. Its `State` is everything it needs to go on; a copy of it is a
 /// checkpoint. `step` returns Status::ok, or why it could not (the state is then worthless); it allocates
-/// nothing. An implicit scheme's `start` may take the tolerance of its nonlinear equations as a third
-/// argument.
+/// nothing. `start` may take SchemeOptions as a third argument. `caution(model, state, h)`, where a scheme
+/// has it, tells why steps of that size are likely to fail; empty if they are not.
 template <class S, class M>
 concept FixedStepOn = Scheme<S> && Model<M> &&
     requires(const M& model, const typename M::State& start, double t, double h,

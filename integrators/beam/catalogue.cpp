@@ -1,12 +1,30 @@
 #include "integrators/catalogue.hpp"
+#include "integrators/beam/adaptive.hpp"
+#include "integrators/beam/bathe.hpp"
+#include "integrators/beam/energy_momentum_4.hpp"
+#include "integrators/beam/generalized_alpha.hpp"
 #include "integrators/beam/midpoint.hpp"
+#include "integrators/beam/mixed_midpoint.hpp"
+#include "integrators/beam/stander_stein.hpp"
+#include "integrators/beam/verlet.hpp"
 #include "models/planar_beam/types.hpp"
 
 namespace gnomon {
 
 void add_beam_schemes(Catalogue& catalogue) {
   using namespace beam;
-  add_schemes<PlanarBeams>(catalogue, TypeList<BeamMidpoint, BeamEnergyMomentum>{});
+  add_schemes<PlanarBeams>(catalogue, TypeList<BeamMidpoint,                //
+                                               BeamEnergyMomentum,          //
+                                               BeamStanderStein,            //
+                                               BeamMixedMidpoint,           //
+                                               BeamEnergyMomentum4,         //
+                                               BeamEnergyMomentumAdaptive,  //
+                                               BeamTrapezoidal,             //
+                                               BeamGeneralizedAlpha,        //
+                                               BeamHht,                     //
+                                               BeamBathe,                   //
+                                               BeamVerlet,                  //
+                                               BeamVerletConsistent>{});
 }
 
 }  // namespace gnomon

@@ -10,10 +10,10 @@ struct MidpointStep {
   template <BeamForm M>
   using State = Stepper<M, turning>;
 
-  /// `newton_tol`: residual relative to the largest of inertia, internal and external force.
+  /// `options.newton_tol`: residual relative to the largest of inertia, internal and external force.
   template <BeamForm M>
-  static State<M> start(const M& model, const typename M::State& state, double newton_tol = 1e-10) {
-    return State<M>(model, state, newton_tol);
+  static State<M> start(const M& model, const typename M::State& state, const SchemeOptions& options = {}) {
+    return State<M>(model, state, options);
   }
   template <BeamForm M>
   static Status step(const M& model, State<M>& state, double t, double h) {

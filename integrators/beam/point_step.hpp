@@ -10,9 +10,10 @@ using planar_beam::CrossSection;
 using planar_beam::PointForce;
 using planar_beam::PointTangent;
 
-/// How the rotation advances by the mean angular velocity: as documented, by h times it, or by the Cayley
-/// map, by 2 atan of half that.
-enum class Turning { documented, cayley };
+/// How a point steps: the rotation advances by h times the mean angular velocity as documented, or by the
+/// Cayley map, by 2 atan of half that. `stander_stein` and `mixed` turn as documented; the first scales the
+/// forces to the change of the strains, the second carries the strains by their rates.
+enum class Turning { documented, cayley, stander_stein, mixed };
 
 /// What the scheme carries from step to step at an integration point: d = (d1, d2), the rotation as cos phi
 /// and sin phi, g = R(phi) d = e - e0, and the bending strain phi' - kappa0.
@@ -36,7 +37,8 @@ inline CosSin cos_sin(double z) {
 
 /// One integration point in a step of size h for a mean velocity whose slopes are (w1, w2, w3) and whose
 /// angular velocity is `omega`. Equations of the note, section "numerical computation"; `cayley` is the
-/// repair that makes the energy exact (see models/planar_beam/README.md).
+/// repair that makes the energy exact (see models/planar_beam/README.md). The other kinds are specialisations
+/// in files of their own.
 template <Turning turning>
 struct PointStep {
   static constexpr bool cayley = turning == Turning::cayley;

@@ -8,6 +8,7 @@
 #include "integrators/beam/point_step.hpp"
 #include "models/planar_beam/element_chain.hpp"
 #include "models/planar_beam/statics.hpp"
+#include "src/scheme.hpp"
 #include "src/status.hpp"
 
 namespace gnomon::beam {
@@ -38,14 +39,15 @@ class Stepper {
   using Vector = Eigen::VectorXd;
   using Point = PointStep<turning>;
 
-  Stepper(const M& model, const typename M::State& state, double newton_tol)
+  Stepper(const M& model, const typename M::State& state, const SchemeOptions& options)
       : u(state.u),
         v(state.v),
         mean(state.v),
         history(model.point_count()),
         chain_(model.elements(), model.held()),
         points_(model.point_count()),
-        tolerance_(newton_tol) {
+        tolerance_(options.newton_tol),
+        kept_while_(options.modified_newton ? 0.2 : 1e-2) {
     const int n = model.unknowns();
     for (Vector* vector : {&external_, &internal_, &inertia_, &residual_, &correction_, &trial_})
       vector->setZero(n);
@@ -257,7 +259,8 @@ class Stepper {
     extrapolated_ = known >= 2 && plain_ == 0;
   }
 
-  /// Newton's iteration with line search. The tangent is kept while it reduces the residual by a hundred.
+  /// Newton's iteration with line search. The tangent is kept while it reduces the residual by a hundred, in
+  /// the modified iteration by five.
   [[gnu::noinline]] bool solve(const M& model, double h) {
     drive(h);
     double size = evaluate(model, h);
@@ -300,7 +303,7 @@ class Stepper {
         keep = false;
         continue;
       }
-      keep = length == 1.0 && size <= 1e-2 * before;
+      keep = length == 1.0 && size <= kept_while_ * before;
       fresh = false;
     }
     return false;
@@ -350,7 +353,7 @@ class Stepper {
   double past_step_ = 0.0, time_ = 0.0;
   bool extrapolated_ = false;
   int plain_ = 0;  ///< steps for which Newton starts from v_n
-  double tolerance_, scale_ = 0.0, length_ = 1.0;
+  double tolerance_, kept_while_, scale_ = 0.0, length_ = 1.0;
   double force_floor_ = 0.0, inertia_floor_ = 0.0;
 };
 

@@ -115,7 +115,14 @@ StudyOptions study_options(const Request& request) {
   if (!request.time_limit.empty())
     options.time_limit = positive_number("--time-limit", request.time_limit, "a positive number (s)");
   if (!request.newton_tol.empty())
-    options.newton_tol = tolerance("--newton-tol", request.newton_tol, tolerance_text);
+    options.scheme.newton_tol = tolerance("--newton-tol", request.newton_tol, tolerance_text);
+  if (!request.spectral_radius.empty()) {
+    const std::string expected = "a number from 0 to 1";
+    const double value = number("--spectral-radius", request.spectral_radius, expected);
+    if (value < 0.0 || value > 1.0) refuse("--spectral-radius", request.spectral_radius, expected);
+    options.scheme.spectral_radius = value;
+  }
+  options.scheme.modified_newton = request.modified_newton;
   options.reference = !request.no_reference;
   options.timing = !request.no_timing;
   options.quick = request.quick;
@@ -208,6 +215,26 @@ void write_json(const Request& request, const nlohmann::ordered_json& json) {
   else
     output::write_file_atomically(request.json, json.dump(1) + "\n");
   flush_output();
+}
+
+void check_scheme_options(const Context& context, const std::vector<Scene>& scenes,
+                          const StudyOptions& options) {
+  if (!options.scheme.spectral_radius) return;
+  const std::string& text = context.request.spectral_radius;
+  for (const Scene& scene : scenes) {
+    bool used = false;
+    for (const SchemeInfo* scheme : select(context.catalogue, scene, options)) {
+      if (!scheme->spectral_radii) continue;
+      used = true;
+      const auto [least, most] = *scheme->spectral_radii;
+      if (*options.scheme.spectral_radius < least || *options.scheme.spectral_radius > most)
+        throw UsageError(fmt::format("--spectral-radius: found '{}', expected {:g} to {:g} for {}", text,
+                                     least, most, scheme->name));
+    }
+    if (!used)
+      throw UsageError(fmt::format(
+          "--spectral-radius: found '{}', expected nothing because no chosen integrator takes it", text));
+  }
 }
 
 void check_ladders(const Context& context, const std::vector<Scene>& scenes, const StudyOptions& options) {

@@ -22,11 +22,13 @@ inline constexpr int interrupted = 3;  ///< what was finished is kept
 struct Request {
   std::vector<std::string> scenes;
   std::vector<std::string> what;  ///< of `list`, `survey` and `report`
-  std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol;
+  std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol,
+      spectral_radius;
   std::vector<std::string> set;
   std::string refine;  ///< of `converge`
   std::string study;   ///< of `bench`
   std::string json, csv, out;
+  bool modified_newton = false;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
 };
 
@@ -66,6 +68,9 @@ std::string reference_folder();
 /// named.
 int verdict(const Context& context, const std::vector<const SceneStudy*>& studies);
 
+/// Refuses --spectral-radius where no chosen integrator takes it or where one cannot take that value.
+void check_scheme_options(const Context& context, const std::vector<Scene>& scenes,
+                          const StudyOptions& options);
 /// Refuses --steps or --tols that no chosen integrator could use.
 void check_ladders(const Context& context, const std::vector<Scene>& scenes, const StudyOptions& options);
 

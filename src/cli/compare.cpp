@@ -16,6 +16,7 @@ int compare(Context& context) {
   const StudyOptions options = study_options(request);
   const std::vector<Scene> scenes = load_scenes(context);
   check_ladders(context, scenes, options);
+  check_scheme_options(context, scenes, options);
   warn(scenes);
   const std::string folder = request.out.empty() ? "gnomon-out" : request.out;
 

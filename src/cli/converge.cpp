@@ -14,6 +14,7 @@ int converge(Context& context) {
   const StudyOptions options = study_options(request);
   const std::vector<Scene> scenes = load_scenes(context);
   check_ladders(context, scenes, options);
+  check_scheme_options(context, scenes, options);
   warn(scenes);
 
   ReferenceStore references(reference_folder());

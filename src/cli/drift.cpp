@@ -13,6 +13,7 @@ int drift(Context& context) {
   const StudyOptions options = study_options(request);
   const std::vector<Scene> scenes = load_scenes(context);
   check_ladders(context, scenes, options);
+  check_scheme_options(context, scenes, options);
   warn(scenes);
 
   ReferenceStore references(reference_folder());

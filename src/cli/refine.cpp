@@ -36,10 +36,13 @@ RefinePlan read_plan(const Request& request) {
 int refine(Context& context) {
   const Request& request = context.request;
   const RefinePlan plan = read_plan(request);
+  const StudyOptions options = study_options(request);
+  if (options.scheme.spectral_radius)
+    check_scheme_options(context, {load_scene(context.catalogue, plan.scene, plan.changes)}, options);
   ReferenceStore references(reference_folder());
   Runner runner(context.catalogue, references, context.stop);
   output::Progress progress(refine_runs(plan), output::progress_mode(request.quiet), std::cerr);
-  const Refinement study = refine(runner, plan, study_options(request), progress);
+  const Refinement study = refine(runner, plan, options, progress);
   progress.finish();
   if (study.meshes.empty()) {
     std::cerr << "gnomon: interrupted before the first mesh was done\n";

@@ -114,6 +114,7 @@ int run(Context& context) {
   if (options.integrators.empty()) throw UsageError("--integrator: found nothing, " + one_name);
   const SchemeInfo& scheme = *select(context.catalogue, study.scene, options).front();
   const Setting setting = read_setting(scheme, options);
+  check_scheme_options(context, {study.scene}, options);
   warn({study.scene});
 
   ReferenceStore references(reference_folder());

@@ -103,6 +103,9 @@ Json run_json(const Scene& scene, const Row& row) {
   json["step"] = optional(result.step);
   json["requested_step"] = optional(row.setting.step);
   json["tol"] = optional(row.setting.tol);
+  json["options"] = {{"newton_tol", row.options.newton_tol},
+                     {"spectral_radius", optional(row.options.spectral_radius)},
+                     {"modified_newton", row.options.modified_newton}};
   json["status"] = to_string(result.status);
   json["message"] = result.message;
   json["t"] = finite_or_null(result.t);

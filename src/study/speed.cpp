@@ -86,7 +86,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
       spec.t_end = scenes.back().t_end;
       if (!closed) spec.step = plan.step;
       spec.record = false;
-      spec.newton_tol = plan.newton_tol;
+      spec.scheme.newton_tol = plan.newton_tol;
       const auto run = runner.catalogue().pair(scheme->name, *scenes.back().model)->run;
       const std::shared_ptr<const AnyModel> model = scenes.back().model;
       tasks.push_back({[=] { return run(model->get(), spec).cpu_seconds; }});

@@ -38,7 +38,7 @@ RunSpec Runner::spec(const Scene& scene, const Setting& setting, const StudyOpti
   spec.watch = options.watch;
   spec.max_steps = options.max_steps;
   spec.time_limit = options.time_limit;
-  spec.newton_tol = options.newton_tol;
+  spec.scheme = options.scheme;
   spec.stop = &stop_;
   return spec;
 }
@@ -119,6 +119,7 @@ Row Runner::run_here(const Scene& scene, const ReferenceStates& reference, const
   Row row;
   row.scheme = &scheme;
   row.setting = setting;
+  row.options = options.scheme;
   row.result = pair->run(scene.model->get(), spec(scene, setting, options));
   row.invariants = summarise_invariants(*scene.model, row.result.invariants);
   for (InvariantSummary& invariant : row.invariants) thin(invariant);

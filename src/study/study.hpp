@@ -27,7 +27,7 @@ struct StudyOptions {
   int watch = 256;
   long max_steps = 100'000'000;
   double time_limit = 600.0;  ///< s
-  double newton_tol = 1e-10;
+  SchemeOptions scheme;
   bool reference = true;
   bool timing = true;
   bool quick = false;
@@ -56,6 +56,7 @@ struct InvariantSummary {
 struct Row {
   const SchemeInfo* scheme = nullptr;
   Setting setting;
+  SchemeOptions options;
   RunResult result;
   std::vector<double> error;  ///< one a metric; empty when there is no reference or the run did not end well
   std::vector<bool> below_bound;  ///< the error is not above the reference's bound, which stands in its place

@@ -67,7 +67,8 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {run_of("s.toml", {"--smaples", "3"}), "run: found the unknown option '--smaples', expected --samples"},
       {run_of("s.toml", {"-x"}),
        "run: found the unknown option '-x', expected one of --integrator, --step, --tol, --t-end, --set, "
-       "--max-steps, --time-limit, --newton-tol, --samples, --json, --csv, --out, --no-reference, "
+       "--max-steps, --time-limit, --newton-tol, --spectral-radius, --modified-newton, --samples, --json, "
+       "--csv, --out, --no-reference, "
        "--no-timing, "
        "--quiet, "
        "--help"},
@@ -163,6 +164,24 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
        "digits"},
       {run_of("s.toml", {"--time-limit", "0"}), "--time-limit: found '0', expected " + step},
       {run_of("s.toml", {"--newton-tol", "1"}), "--newton-tol: found '1', expected " + tol},
+      {run_of("s.toml", {"--spectral-radius", "1.1"}),
+       "--spectral-radius: found '1.1', expected a number from 0 to 1"},
+      {run_of("s.toml", {"--spectral-radius=-0.1"}),
+       "--spectral-radius: found '-0.1', expected a number from 0 to 1"},
+      {run_of("s.toml", {"--spectral-radius", "high"}),
+       "--spectral-radius: found 'high', expected a number from 0 to 1"},
+      {run_of("s.toml", {"--spectral-radius"}),
+       "--spectral-radius: found no value, expected --spectral-radius X"},
+      {with({"--step", "0.1", "--spectral-radius", "0.9"}),
+       "--spectral-radius: found '0.9', expected nothing because no chosen integrator takes it"},
+      {{"compare", "soft-beam", "--integrators", "beam-midpoint", "--spectral-radius", "0.9"},
+       "--spectral-radius: found '0.9', expected nothing because no chosen integrator takes it"},
+      {{"run", "soft-beam", "--integrator", "beam-hht", "--step", "0.1", "--spectral-radius", "0.4"},
+       "--spectral-radius: found '0.4', expected 0.5 to 1 for beam-hht"},
+      {{"drift", "soft-beam", "--spectral-radius", "0.4"},
+       "--spectral-radius: found '0.4', expected 0.5 to 1 for beam-hht"},
+      {{"converge", "soft-beam", "--integrators", "beam-hht", "--modified-newton=1"},
+       "--modified-newton: found the value '1', expected none"},
       // Files.
       {run_of("s.toml", {"--json", "none/a.json"}),
        "--json: found 'none/a.json', expected a file in a folder that exists"},

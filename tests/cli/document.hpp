@@ -91,7 +91,7 @@ inline void check_run(const Json& run, std::size_t samples = 0) {
   INFO(run.dump(1));
   Keys keys{"scene",   "integrator",  "step",  "requested_step", "tol",        "status",
             "message", "t",           "state", "probes",         "invariants", "error",
-            "cost",    "cpu_seconds", "flags", "below_bound"};
+            "cost",    "cpu_seconds", "flags", "below_bound",    "options"};
   if (samples > 0) keys.insert("series");
   CHECK(keys_of(run) == keys);
   for (const char* key : {"scene", "integrator", "status", "message"}) CHECK(run[key].is_string());

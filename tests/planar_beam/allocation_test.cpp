@@ -1,7 +1,12 @@
 // What the inner loop of the beam schemes allocates.
 #include <vector>
 
-#include "integrators/beam/midpoint.hpp"
+#include "integrators/beam/bathe.hpp"
+#include "integrators/beam/energy_momentum_4.hpp"
+#include "integrators/beam/generalized_alpha.hpp"
+#include "integrators/beam/mixed_midpoint.hpp"
+#include "integrators/beam/stander_stein.hpp"
+#include "integrators/beam/verlet.hpp"
 #include "tests/planar_beam/beams.hpp"
 #include "tests/support/allocations.hpp"
 
@@ -27,6 +32,16 @@ void check_steps(const PlanarBeam<p>& model, double h, long count) {
 TEST_CASE("beam schemes: steps allocate nothing", "[planar_beam][allocation]") {
   check_steps<beam::BeamMidpoint>(PlanarBeam<1>(flying_beam(10, 500.0)), 0.05, 100);
   check_steps<beam::BeamEnergyMomentum>(PlanarBeam<1>(soft_arm(4, 0.5)), 0.01, 100);
+  const PlanarBeam<1> arm(soft_arm(4, 0.5));
+  check_steps<beam::BeamStanderStein>(arm, 0.01, 100);
+  check_steps<beam::BeamMixedMidpoint>(arm, 0.01, 100);
+  check_steps<beam::BeamEnergyMomentum4>(arm, 0.01, 100);
+  check_steps<beam::BeamTrapezoidal>(arm, 0.01, 100);
+  check_steps<beam::BeamGeneralizedAlpha>(arm, 0.01, 100);
+  check_steps<beam::BeamHht>(arm, 0.01, 100);
+  check_steps<beam::BeamBathe>(arm, 0.01, 100);
+  check_steps<beam::BeamVerlet>(arm, 0.01, 100);
+  check_steps<beam::BeamVerletConsistent>(arm, 0.01, 100);
   // Large steps, too, which need line search and continuation.
   check_steps<beam::BeamEnergyMomentum>(PlanarBeam<3>(flying_beam(10, 100.0)), 0.5, 20);
 }

@@ -61,18 +61,34 @@ inline Data soft_arm(int elements, double over) {
   return data;
 }
 
+inline const Catalogue& beam_catalogue() {
+  static const Catalogue catalogue = full_catalogue();
+  return catalogue;
+}
+
+/// The schemes of equal steps that are made for beams.
+inline std::vector<SchemeInfo> beam_schemes() {
+  std::vector<SchemeInfo> schemes;
+  for (const SchemeInfo& info : beam_catalogue().schemes)
+    if (info.form == "beam" && info.stepping == Stepping::fixed) schemes.push_back(info);
+  return schemes;
+}
+
 /// Runs a scheme as the program does.
+template <int p>
+RunResult run_beam(std::string_view scheme, const PlanarBeam<p>& model, const RunSpec& spec) {
+  for (const Pair& pair : beam_catalogue().pairs)
+    if (pair.scheme == scheme && pair.model_type == typeid(PlanarBeam<p>)) return pair.run(&model, spec);
+  throw std::logic_error(std::string(scheme) + " does not run on beams");
+}
 template <int p>
 RunResult run_beam(std::string_view scheme, const PlanarBeam<p>& model, double t_end, double step,
                    int samples = 0) {
-  static const Catalogue catalogue = full_catalogue();
   RunSpec spec;
   spec.t_end = t_end;
   spec.step = step;
   spec.samples = samples;
-  for (const Pair& pair : catalogue.pairs)
-    if (pair.scheme == scheme && pair.model_type == typeid(PlanarBeam<p>)) return pair.run(&model, spec);
-  throw std::logic_error(std::string(scheme) + " does not run on beams");
+  return run_beam(scheme, model, spec);
 }
 
 /// Largest changes of energy and momenta after the invariants' own time, by their scales.
@@ -80,8 +96,7 @@ struct Drifts {
   double energy = 0.0, linear = 0.0, angular = 0.0;
 };
 template <int p>
-Drifts drifts(std::string_view scheme, const PlanarBeam<p>& model, double t_end, double step) {
-  const RunResult result = run_beam(scheme, model, t_end, step);
+Drifts drifts_of(const PlanarBeam<p>& model, const RunResult& result) {
   INFO(result.message);
   REQUIRE(result.status == Status::ok);
   const auto infos = model.invariant_info();
@@ -99,6 +114,10 @@ Drifts drifts(std::string_view scheme, const PlanarBeam<p>& model, double t_end,
   }
   REQUIRE(first);
   return most;
+}
+template <int p>
+Drifts drifts(std::string_view scheme, const PlanarBeam<p>& model, double t_end, double step) {
+  return drifts_of(model, run_beam(scheme, model, t_end, step));
 }
 
 /// Nodal values in [-size, size].

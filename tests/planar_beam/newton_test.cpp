@@ -3,7 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "integrators/beam/midpoint.hpp"
+#include "integrators/beam/mixed_midpoint.hpp"
+#include "integrators/beam/stander_stein.hpp"
 #include "tests/catch.hpp"
 #include "tests/planar_beam/beams.hpp"
 
@@ -11,6 +12,8 @@ using namespace gnomon;
 using namespace gnomon::test;
 using beam::BeamEnergyMomentum;
 using beam::BeamMidpoint;
+using beam::BeamMixedMidpoint;
+using beam::BeamStanderStein;
 
 namespace {
 
@@ -134,12 +137,16 @@ TEST_CASE("beam schemes: tangent against finite differences in large random stat
          {tangent_error<BeamMidpoint, 1>(seed), tangent_error<BeamMidpoint, 2>(seed),
           tangent_error<BeamMidpoint, 3>(seed), tangent_error<BeamMidpoint, 4>(seed),
           tangent_error<BeamEnergyMomentum, 1>(seed), tangent_error<BeamEnergyMomentum, 2>(seed),
-          tangent_error<BeamEnergyMomentum, 3>(seed), tangent_error<BeamEnergyMomentum, 4>(seed)})
+          tangent_error<BeamEnergyMomentum, 3>(seed), tangent_error<BeamEnergyMomentum, 4>(seed),
+          tangent_error<BeamStanderStein, 1>(seed), tangent_error<BeamStanderStein, 2>(seed),
+          tangent_error<BeamMixedMidpoint, 1>(seed), tangent_error<BeamMixedMidpoint, 2>(seed)})
       CHECK(error <= 1e-6);
 }
 
 TEST_CASE("beam schemes: Newton's iteration converges quadratically", "[planar_beam]") {
-  for (const auto& e : {residuals<BeamMidpoint>(0.3, 1.0, 8), residuals<BeamEnergyMomentum>(0.3, 1.0, 8)}) {
+  for (const auto& e :
+       {residuals<BeamMidpoint>(0.3, 1.0, 8), residuals<BeamEnergyMomentum>(0.3, 1.0, 8),
+        residuals<BeamStanderStein>(0.3, 1.0, 8), residuals<BeamMixedMidpoint>(0.3, 1.0, 8)}) {
     // Pairs above roundoff, 1e-11: e_{k+1} <= C e_k^2 with one C. A rate of 0.1 would need C = 0.1/e_k,
     // which is 20 and more in the last pair.
     int pairs = 0;

@@ -7,7 +7,7 @@
 using namespace gnomon;
 using namespace gnomon::test;
 
-TEST_CASE("planar beam: every shipped scene runs with both schemes", "[planar_beam]") {
+TEST_CASE("planar beam: every shipped scene runs with both midpoint schemes", "[planar_beam]") {
   const Catalogue catalogue = full_catalogue();
   std::vector<std::string> names;
   for (const ShippedScene& shipped : shipped_scenes(catalogue)) {

@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+
+#include "integrators/beam/nodal_scheme.hpp"
+
+namespace gnomon::beam {
+
+/// The trapezoidal rule to t + (2 - sqrt 2) h, then the backward difference formula of order 2 on the three
+/// times; with this split both parts have the same tangent.
+class BatheMotion {
+ public:
+  BatheMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
+              const SchemeOptions& options);
+  Status step(double t, double h);
+
+  NodalMotion nodal;
+
+ private:
+  /// Solves M a + f(u) = F, u = start_ + kappa a, with the held entries at time t.
+  bool stage(double from, double t, double h, double kappa);
+
+  Eigen::VectorXd start_, known_, force_, middle_u_, middle_v_, next_u_, next_v_, next_a_;
+};
+
+struct BeamBathe : NodalScheme<BatheMotion> {
+  static constexpr SchemeInfo info{
+      .name = "beam-bathe",
+      .family = "beam",
+      .summary = "composite of the trapezoidal rule and BDF2, split at (2 - sqrt 2) h; damps what is fast",
+      .citation =
+          "R.E. Bank et al., IEEE Trans. Electron Devices 32 (1985) 1992-2007 (TR-BDF2); K.J. Bathe, "
+          "Computers & Structures 85 (2007) 437-445, there split at h/2",
+      .form = "beam",
+      .orders = {{{"none", 2}, {"dead", 2}}},
+  };
+};
+
+}  // namespace gnomon::beam

@@ -1,0 +1,78 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "integrators/beam/nodal_scheme.hpp"
+
+namespace gnomon::beam {
+
+enum class Mass { lumped, consistent };
+
+/// The largest step at which the linearised velocity Verlet scheme is stable, 2/omega, s. omega bounds the
+/// frequencies of the mesh at u from above: it is the highest frequency of any element by itself (B.M. Irons,
+/// Swansea report CR/132/70, 1970).
+double stable_step(const NodalBeam& beam, const double* u, Mass mass);
+
+class VerletMotion {
+ public:
+  VerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
+               const SchemeOptions& options, Mass mass);
+  Status step(double t, double h);
+  std::string caution(double h) const;
+
+  NodalMotion nodal;
+
+ private:
+  double stable_;  ///< at the start, s
+};
+
+struct LumpedVerletMotion : VerletMotion {
+  LumpedVerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
+                     const SchemeOptions& options);
+};
+struct ConsistentVerletMotion : VerletMotion {
+  ConsistentVerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
+                         const SchemeOptions& options);
+};
+
+template <class Motion>
+struct VerletScheme : NodalScheme<Motion> {
+  template <BeamForm M>
+  static std::string caution(const M&, const Motion& state, double h) {
+    return state.caution(h);
+  }
+};
+
+/// Its solution differs from that of the mesh, whose mass is consistent, by what lumping makes: no order is
+/// declared.
+struct BeamVerlet : VerletScheme<LumpedVerletMotion> {
+  static constexpr SchemeInfo info{
+      .name = "beam-verlet",
+      .family = "beam",
+      .summary = "explicit velocity Verlet, mass lumped at the nodes; order 2 towards a motion of its own",
+      .citation =
+          "L. Verlet, Phys. Rev. 159 (1967) 98-103; W.C. Swope et al., J. Chem. Phys. 76 (1982) 637: "
+          "the velocity form",
+      .form = "beam",
+      .stages = 1,
+      .reversible = true,
+  };
+};
+
+struct BeamVerletConsistent : VerletScheme<ConsistentVerletMotion> {
+  static constexpr SchemeInfo info{
+      .name = "beam-verlet-consistent",
+      .family = "beam",
+      .summary = "explicit velocity Verlet with the consistent mass, solved as a band; momenta exact",
+      .citation =
+          "L. Verlet, Phys. Rev. 159 (1967) 98-103; W.C. Swope et al., J. Chem. Phys. 76 (1982) 637: "
+          "the velocity form",
+      .form = "beam",
+      .stages = 1,
+      .orders = {{{"none", 2}, {"dead", 2}}},
+      .reversible = true,
+      .conserves_momentum = true,
+  };
+};
+
+}  // namespace gnomon::beam
