@@ -89,6 +89,12 @@ Json cpu_json(const std::optional<TimingStats>& timing) {
 
 }  // namespace
 
+Json options_json(const SchemeOptions& options) {
+  return {{"newton_tol", options.newton_tol},
+          {"spectral_radius", optional(options.spectral_radius)},
+          {"modified_newton", options.modified_newton}};
+}
+
 Json run_json(const Scene& scene, const Row& row) {
   if (!row.document.is_null()) {
     Json json = row.document;
@@ -103,9 +109,7 @@ Json run_json(const Scene& scene, const Row& row) {
   json["step"] = optional(result.step);
   json["requested_step"] = optional(row.setting.step);
   json["tol"] = optional(row.setting.tol);
-  json["options"] = {{"newton_tol", row.options.newton_tol},
-                     {"spectral_radius", optional(row.options.spectral_radius)},
-                     {"modified_newton", row.options.modified_newton}};
+  json["options"] = options_json(row.options);
   json["status"] = to_string(result.status);
   json["message"] = result.message;
   json["t"] = finite_or_null(result.t);

@@ -9,6 +9,8 @@
 
 namespace gnomon {
 
+/// What the user told the schemes.
+nlohmann::ordered_json options_json(const SchemeOptions& options);
 /// RUN of a document.
 nlohmann::ordered_json run_json(const Scene& scene, const Row& row);
 

@@ -11,6 +11,7 @@
 #include "src/measure/timing.hpp"
 #include "src/nearest.hpp"
 #include "src/solver_reference.hpp"
+#include "src/study/json.hpp"
 #include "src/study/keeper.hpp"
 #include "src/study/kept_row.hpp"
 
@@ -94,7 +95,7 @@ std::vector<Row> Runner::run_all(const Scene& scene, const ReferenceStates& refe
                           {"watch", options.watch},
                           {"max_steps", options.max_steps},
                           {"time_limit", options.time_limit},
-                          {"newton_tol", options.newton_tol},
+                          {"options", options_json(options.scheme)},
                           {"reference", reference.kind}});
   // A run looks at its limit itself; one that never comes to do so is ended.
   keeper_->set_seconds(options.time_limit + std::max(1.0, 0.1 * options.time_limit));
@@ -154,7 +155,7 @@ void Runner::time(const Scene& scene, std::vector<Row>& rows, const StudyOptions
                       {"physics", scene.physics_hash()},
                       {"max_steps", options.max_steps},
                       {"time_limit", options.time_limit},
-                      {"newton_tol", options.newton_tol}};
+                      {"options", options_json(options.scheme)}};
   const std::vector<TimingStats> stats = time("times", identity, names, tasks, {});
   for (std::size_t k = 0; k < timed.size(); ++k)
     if (stats[k].repetitions > 0) timed[k]->timing = stats[k];
