@@ -7,6 +7,7 @@
 
 #include "src/model.hpp"
 #include "src/reference_states.hpp"
+#include "src/statics.hpp"
 
 namespace gnomon {
 
@@ -31,6 +32,8 @@ class AnyModel {
   /// Closed form, else two independent methods in extended precision; kind is empty where neither is to be
   /// had.
   virtual ReferenceStates reference(const std::vector<double>& times) const = 0;
+  /// Equilibrium under the model's loads; none where it has no statics. Refers to the model.
+  virtual std::unique_ptr<StaticSystem> statics() const = 0;
   virtual bool has_exact() const = 0;
   /// For models with a mesh (see HasField); empty for others.
   virtual bool has_field() const = 0;
@@ -74,6 +77,10 @@ class ModelBox final : public AnyModel {
   }
   ReferenceStates reference(const std::vector<double>& times) const override {
     return reference_states(model_, times);
+  }
+  std::unique_ptr<StaticSystem> statics() const override {
+    if constexpr (requires { model_.statics(); }) return model_.statics();
+    return nullptr;
   }
   bool has_exact() const override { return HasExact<M>; }
   bool has_field() const override { return HasField<M>; }

@@ -157,6 +157,21 @@ std::vector<double> Section::numbers_or(std::string_view key, std::vector<double
   return find(key) ? numbers(key, fallback.size(), expected) : fallback;
 }
 
+std::vector<double> Section::list(std::string_view key, std::string_view expected) {
+  const toml::array* array = require(key, expected).as_array();
+  if (!array) fail(key, shown(key), expected);
+  std::vector<double> values;
+  for (const toml::node& node : *array) values.push_back(finite(node, key, expected));
+  return values;
+}
+
+bool Section::flag(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return false;
+  if (!node->is_boolean()) fail(key, shown(key), "true or false");
+  return node->as_boolean()->get();
+}
+
 std::string Section::text(std::string_view key, std::string_view expected) {
   const auto* value = require(key, expected).as_string();
   if (!value || value->get().empty()) fail(key, shown(key), expected);
@@ -210,6 +225,11 @@ std::vector<Section> Section::sections(std::string_view key) {
 bool Section::is_table(std::string_view key) const {
   const toml::node* node = table_->get(key);
   return node && node->is_table();
+}
+
+bool Section::is_number(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node && node->is_number();
 }
 
 std::string Section::exactly_one(std::string_view first, std::string_view second, std::string_view meaning) {

@@ -39,6 +39,10 @@ class Section {
   /// Makes a key that is absent known, and gives its default.
   std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback,
                                  std::string_view expected);
+  /// Finite numbers, any count of them.
+  std::vector<double> list(std::string_view key, std::string_view expected);
+  /// Whether the key is there and true.
+  bool flag(std::string_view key);
   std::string text(std::string_view key, std::string_view expected);
   std::string text_or(std::string_view key, std::string_view fallback, std::string_view expected);
   /// A list of texts; none when the key is absent.
@@ -50,6 +54,8 @@ class Section {
   std::vector<Section> sections(std::string_view key);
   /// Whether the key is there and a table.
   bool is_table(std::string_view key) const;
+  /// Whether the key is there and a number.
+  bool is_number(std::string_view key) const;
   /// Exactly one of two keys must be there; returns it.
   std::string exactly_one(std::string_view first, std::string_view second, std::string_view meaning);
 

@@ -44,7 +44,7 @@ struct BeamMidpoint : MidpointStep<Turning::documented> {
       .summary = "the documented implicit midpoint scheme on the mean velocity; momenta exact, energy not",
       .citation = midpoint_citation,
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_momentum = true,
   };
@@ -58,7 +58,7 @@ struct BeamEnergyMomentum : MidpointStep<Turning::cayley> {
           "the same with rotations by the Cayley map and internal forces scaled to match: energy exact",
       .citation = midpoint_citation,
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,

@@ -27,6 +27,9 @@ concept BeamForm = requires(const M& model, double t, double* out) {
   { model.prescribed(0) } -> std::convertible_to<const planar_beam::Motion*>;
   model.jump(t, out);
   model.external_force(t, out);
+  model.following(t, 0, t);
+  model.spring(0);
+  model.damping();
 };
 
 /// The state of the scheme and the work space of its Newton iteration on the mean velocity vbar of a step. A
@@ -79,7 +82,7 @@ class Stepper {
 
   // A step is long enough to be called; inlined into the loops of all orders it takes minutes to compile.
   [[gnu::noinline]] Status step(const M& model, double t, double h) {
-    model.external_force(t + 0.5 * h, external_.data());
+    load(model, t + 0.5 * h);
     time_ = t;
     if (!driven_.empty()) {
       for (const Driven& end : driven_) time_ = end.motion.snapped(time_, nearby * h);
@@ -133,6 +136,11 @@ class Stepper {
           inertia[3 * a + 2] += m * section.rhoI * (vbar[3 * b + 2] - before[3 * b + 2]);
         }
     }
+    if (model.has_springs() || model.has_followers()) add_ends(model, h);
+    if (model.damping() != 0.0) {
+      model.momentum(mean.data(), residual_.data());
+      inertia_ += model.damping() * residual_;
+    }
     for (int i : model.held()) internal_[i] = inertia_[i] = external_[i] = 0.0;
     ++evaluations;
     return take_residual();
@@ -150,10 +158,18 @@ class Stepper {
     typename ElementChain<p>::Matrix matrix = ElementChain<p>::Matrix::Zero();
     for (int g = 0; g < p; ++g)
       element.add_tangent(g, points_[e * p + g].force_tangent(model.section(), h), matrix);
+    if (model.has_springs() || model.has_followers())
+      model.for_ends_of(e, [&](int end, int i) {
+        const EndTurn turn(u[model.end_unknown(end) + 2], mean[model.end_unknown(end) + 2], h);
+        const auto load = model.following(middle_, end, turn.phi);
+        matrix(i, i + 2) -= turn.rate * load.slope[0];
+        matrix(i + 1, i + 2) -= turn.rate * load.slope[1];
+        matrix(i + 2, i + 2) += model.spring(end) * turn.moment_slope;
+      });
     const planar_beam::CrossSection& section = model.section();
     for (int a = 0; a <= p; ++a)
       for (int b = 0; b <= p; ++b) {
-        const double m = 2.0 / h * element.mass[a][b];
+        const double m = (2.0 / h + model.damping()) * element.mass[a][b];
         matrix(3 * a, 3 * b) += m * section.rhoA;
         matrix(3 * a + 1, 3 * b + 1) += m * section.rhoA;
         matrix(3 * a + 2, 3 * b + 2) += m * section.rhoI;
@@ -192,8 +208,11 @@ class Stepper {
 
   const Vector& residual() const { return residual_; }
   double tolerance() const { return tolerance_; }
-  /// Sets the external force to that at time t.
-  void load(const M& model, double t) { model.external_force(t, external_.data()); }
+  /// Sets the external force to that at time t, the middle of a step.
+  void load(const M& model, double t) {
+    model.external_force(t, external_.data());
+    middle_ = t;
+  }
 
   Vector u, v;
   Vector mean;  ///< vbar = (v_{n+1} + v_n)/2, the unknown
@@ -207,14 +226,49 @@ class Stepper {
   };
   static constexpr double nearby = 1e-6;  ///< steps; times that are nearer to a break are meant to be there
 
-  /// Sets the mean angular velocities of driven ends, so that the rotation at the end of the step is the
-  /// prescribed one, and the velocity that the inertia term sees before the step, so that the acceleration is
-  /// (s'(t_{n+1}-) - s'(t_n+))/h.
+  /// The section of an end in the middle of a step with mean angular velocity `omega`: its rotation, the
+  /// derivative of that by omega, and the moment of a unit spring with its derivative. By the Cayley map that
+  /// moment is the mean rotation times atan(z)/z, z = (h/2) omega, so that its work, with h omega, is the
+  /// change of the spring's energy.
+  struct EndTurn {
+    double phi, rate, moment, moment_slope;
+    EndTurn(double before, double omega, double h) {
+      const double half = 0.5 * h, z = half * omega;
+      phi = before + z;
+      rate = half;
+      double factor = 1.0, slope = 0.0;
+      if constexpr (turning == Turning::cayley) {
+        phi = before + std::atan(z);
+        rate = half / (1.0 + z * z);
+        const bool small = std::abs(z) < 1e-3;
+        factor = small ? 1.0 - z * z * (1.0 / 3.0 - z * z / 5.0) : std::atan(z) / z;
+        slope = small ? -2.0 / 3.0 * z * half : half * (1.0 / (1.0 + z * z) - factor) / z;
+      }
+      moment = factor * phi;
+      moment_slope = factor * rate + slope * phi;
+    }
+  };
+  /// Adds the springs' moments at the ends to the internal forces and takes the followers' forces off them.
+  void add_ends(const M& model, double h) {
+    for (int end = 0; end < 2; ++end) {
+      const int i = model.end_unknown(end);
+      const EndTurn turn(u[i + 2], mean[i + 2], h);
+      const auto load = model.following(middle_, end, turn.phi);
+      internal_[i] -= load.force[0];
+      internal_[i + 1] -= load.force[1];
+      internal_[i + 2] += model.spring(end) * turn.moment;
+    }
+  }
+
+  /// Sets the mean velocities of driven ends, so that they are at the end of the step where they are
+  /// prescribed to be, and the velocity that the inertia term sees before the step, so that the acceleration
+  /// is (s'(t_{n+1}-) - s'(t_n+))/h.
   void drive(double h) {
     for (const Driven& end : driven_) {
       const double t = end.motion.snapped(time_ + h, nearby * h);
       const double turn = end.motion.value(t) - end.motion.value(time_);
-      const double rate = turning == Turning::cayley ? 2.0 / h * std::tan(0.5 * turn) : turn / h;
+      const bool bent = turning == Turning::cayley && end.unknown % 3 == 2;
+      const double rate = bent ? 2.0 / h * std::tan(0.5 * turn) : turn / h;
       mean[end.unknown] = rate;
       v[end.unknown] = rate - 0.5 * (end.motion.rate_before(t) - end.motion.rate_after(time_));
     }
@@ -350,7 +404,7 @@ class Stepper {
   Vector external_, internal_, inertia_, residual_, correction_, trial_;
   Vector past_[3];
   int known_ = 0;
-  double past_step_ = 0.0, time_ = 0.0;
+  double past_step_ = 0.0, time_ = 0.0, middle_ = 0.0;
   bool extrapolated_ = false;
   int plain_ = 0;  ///< steps for which Newton starts from v_n
   double tolerance_, kept_while_, scale_ = 0.0, length_ = 1.0;

@@ -11,7 +11,8 @@ namespace gnomon::planar_beam {
 
 /// All unknowns, with what the supports hold kept as constraints g(u, t) = u_c - s(t) = 0, G = dg/du, in the
 /// stabilised form of C.W. Gear, B. Leimkuhler, G.K. Gupta, J. Comput. Appl. Math. 12-13 (1985) 77-90:
-///   u' = v + G^T mu',  M v' = f_ext(t) - f_int(u) + G^T lambda',  0 = g(u, t),  0 = G v + g_t,
+///   u' = v + G^T mu',  M v' = f_ext(t, u) - f_int(u) - alpha M v + G^T lambda',  0 = g(u, t),  0 = G v +
+///   g_t,
 /// y = (u, v, mu, lambda), mu(0) = lambda(0) = 0. With the primitives of the multipliers as unknowns it has
 /// index 1, and all of y is in the error test. lambda is the impulse of the supports' forces, without those
 /// that make v jump; mu stays 0 on the exact motion.
@@ -66,23 +67,26 @@ class ConstraintDaeForm {
     return {Map(y, n_), Map(y + n_, n_), beam_->strains(y)};
   }
 
-  /// The impulse of a jump of a prescribed rate makes all velocities jump. Prescribed rates are constant
-  /// between breaks, so those ends do not accelerate.
+  /// The impulse of a jump of a prescribed rate makes all velocities jump. Accelerations: s'' where
+  /// prescribed, elsewhere M_ff^-1 (f_f - M_fc s'').
   void resume(double t, double* y, double* rate) const {
     double* v = y + n_;
     beam_->jump(t, v);
     std::fill(rate, rate + size(), 0.0);
     std::copy(v, v + n_, rate);
-    forces(t, y);
+    forces(t, y, v);
     const Eigen::VectorXd loads = forces_;
     beam_->accelerate(forces_.data());
+    for (const auto& one : beam_->driven())
+      if (const double rise = one.motion.acceleration_after(t); rise != 0.0)
+        for (int i = 0; i < beam_->nodes(); ++i) forces_[3 * i + one.unknown % 3] += rise * one.response[i];
     std::copy(forces_.begin(), forces_.end(), rate + n_);
     beam_->momentum(rate + n_, external_.data());
     for (int k = 0; k < m_; ++k)
       rate[2 * n_ + m_ + k] = external_[beam_->held()[k]] - loads[beam_->held()[k]];
   }
   void residual(double t, const double* y, const double* rate, double* value) const {
-    forces(t, y);
+    forces(t, y, y + n_);
     beam_->momentum(rate + n_, value + n_);
     for (int i = 0; i < n_; ++i) {
       value[i] = rate[i] - y[n_ + i];
@@ -97,14 +101,14 @@ class ConstraintDaeForm {
       value[2 * n_ + m_ + k] = y[n_ + i] - (motion ? motion->rate_after(t) : 0.0);
     }
   }
-  void jacobian(double, double cj, const double* y, const double*, double* values) const {
+  void jacobian(double t, double cj, const double* y, const double*, double* values) const {
     std::fill(values, values + layout_.count(), 0.0);
     for (int j = 0; j < n_; ++j) {
       values[layout_.pattern().column_start[j]] = cj;
       values[layout_.pattern().column_start[n_ + j]] = -1.0;
     }
-    matrices_.add_mass(cj, values);
-    matrices_.add_stiffness(y, 1.0, values);
+    matrices_.add_mass(cj + beam_->damping(), values);
+    matrices_.add_stiffness(t, y, 1.0, values);
     for (int k = 0; k < m_; ++k) {
       const int i = beam_->held()[k];
       values[layout_.slot(2 * n_ + k, i)] = 1.0;
@@ -120,11 +124,15 @@ class ConstraintDaeForm {
     for (int i = 0; i < beam.unknowns(); ++i) place[i] = i;
     return place;
   }
-  /// External less internal forces.
-  void forces(double t, const double* u) const {
+  /// External less internal forces, and those of damping.
+  void forces(double t, const double* u, const double* v) const {
     beam_->internal_force(u, forces_.data());
     beam_->external_force(t, external_.data());
     forces_ = external_ - forces_;
+    beam_->add_following(t, u, forces_.data());
+    if (beam_->damping() == 0.0) return;
+    beam_->momentum(v, external_.data());
+    forces_ -= beam_->damping() * external_;
   }
   const Beam* beam_;
   int n_, m_;  ///< unknowns and constraints

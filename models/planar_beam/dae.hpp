@@ -5,8 +5,8 @@
 
 namespace gnomon::planar_beam {
 
-/// The implicit form 0 = u' - v, 0 = M w' + f_int(u) - f_ext(t) on the free unknowns: an ODE (index 0) that
-/// needs no inverse of M, so that its Jacobian is sparse.
+/// The implicit form 0 = u' - v, 0 = M w' + alpha M w + f_int(u) - f_ext(t, u) on the free unknowns: an ODE
+/// (index 0) that needs no inverse of M, so that its Jacobian is sparse.
 template <class Beam>
 class DaeForm : private MassForm<Beam> {
  public:
@@ -22,6 +22,7 @@ class DaeForm : private MassForm<Beam> {
     const Beam& beam = *this->beam_;
     const int n = this->count();
     this->forces(t, y);
+    this->damp(y);
     accelerations_.setZero(beam.unknowns());
     for (int i = 0; i < n; ++i) accelerations_[beam.free()[i]] = rate[n + i];
     beam.momentum(accelerations_.data(), inertia_.data());

@@ -5,20 +5,19 @@
 
 namespace gnomon::planar_beam {
 
-/// The unknowns that no support holds, as y = (u_f, w), and back. Where a support prescribes the rotation
-/// s(t) of an end, w = v_f + M_ff^-1 M_fc s'(t): it is v_f without what s' gives it at once. So it stays
+/// The unknowns that no support holds, as y = (u_f, w), and back. Where supports prescribe motions
+/// s(t), w = v_f + M_ff^-1 M_fc s'(t): it is v_f without what s' gives it at once. So it stays
 /// continuous where s' jumps and the impulse makes v_f jump, and M_ff w' = f_f needs no s''. Else w = v_f.
 template <class Beam>
 class FreeUnknowns {
  public:
   explicit FreeUnknowns(const Beam& beam) : beam_(&beam), u_(beam.unknowns()), f_(beam.unknowns()) {
     u_.setZero();
-    for (int i : beam.held())
-      if (const Motion* motion = beam.prescribed(i)) {
-        driven_.push_back({i, motion, {}});
-        const auto& response = beam.jump_response(i == 2 ? 0 : 1);
-        for (int k : beam.free()) driven_.back().response.push_back(k % 3 == 2 ? response[k / 3] : 0.0);
-      }
+    for (const auto& one : beam.driven()) {
+      driven_.push_back({one.unknown, &one.motion, {}});
+      for (int i : beam.free())
+        driven_.back().response.push_back(i % 3 == one.unknown % 3 ? one.response[i / 3] : 0.0);
+    }
   }
   int count() const { return static_cast<int>(beam_->free().size()); }
   int size() const { return 2 * count(); }
@@ -69,11 +68,22 @@ class FreeUnknowns {
     external_.resize(f_.size());
     beam_->external_force(t, external_.data());
     f_ = external_ - f_;
+    beam_->add_following(t, u_.data(), f_.data());
     return f_;
   }
 
+  /// Takes alpha M_ff w off the forces.
+  void damp(const double* y) const {
+    if (beam_->damping() == 0.0) return;
+    w_.setZero(beam_->unknowns());
+    external_.resize(f_.size());
+    for (int i = 0; i < count(); ++i) w_[beam_->free()[i]] = y[count() + i];
+    beam_->momentum(w_.data(), external_.data());
+    f_ -= beam_->damping() * external_;
+  }
+
   const Beam* beam_;
-  mutable Eigen::VectorXd u_, f_, external_;
+  mutable Eigen::VectorXd u_, w_, f_, external_;
 
  private:
   struct Driven {

@@ -28,22 +28,22 @@ class MassBand {
       }
   }
 
-  /// Solves for three right-hand sides at once, x, y, z of one node after the other, the last with a factor
-  /// of its own: they do not wait for each other.
-  static void solve(const MassBand& first_two, const MassBand& third, double* values) {
-    const int n = first_two.size_;
-    const double *L = first_two.lower_.data(), *M = third.lower_.data();
+  /// Solves for three right-hand sides at once, x, z and rotation of one node after the other, each with a
+  /// factor of its own, which may be the same: they do not wait for each other.
+  static void solve(const MassBand& first, const MassBand& second, const MassBand& third, double* values) {
+    const int n = first.size_;
+    const double *K = first.lower_.data(), *L = second.lower_.data(), *M = third.lower_.data();
     for (int i = 0; i < n; ++i) {
       double* x = values + 3 * i;
       const std::size_t at = static_cast<std::size_t>(i) * width;
       for (int d = std::min(i, p); d >= 1; --d) {
-        const double l = L[at + d], m = M[at + d];
+        const double k = K[at + d], l = L[at + d], m = M[at + d];
         const double* other = x - 3 * d;
-        x[0] -= l * other[0];
+        x[0] -= k * other[0];
         x[1] -= l * other[1];
         x[2] -= m * other[2];
       }
-      x[0] *= L[at];
+      x[0] *= K[at];
       x[1] *= L[at];
       x[2] *= M[at];
     }
@@ -51,14 +51,14 @@ class MassBand {
       double* x = values + 3 * i;
       for (int d = 1; d <= std::min(n - 1 - i, p); ++d) {
         const std::size_t at = static_cast<std::size_t>(i + d) * width + d;
-        const double l = L[at], m = M[at];
+        const double k = K[at], l = L[at], m = M[at];
         const double* other = x + 3 * d;
-        x[0] -= l * other[0];
+        x[0] -= k * other[0];
         x[1] -= l * other[1];
         x[2] -= m * other[2];
       }
       const std::size_t at = static_cast<std::size_t>(i) * width;
-      x[0] *= L[at];
+      x[0] *= K[at];
       x[1] *= L[at];
       x[2] *= M[at];
     }

@@ -8,7 +8,8 @@
 
 namespace gnomon::planar_beam {
 
-/// u' = v, M w' = f_ext(t) - f_int(u) on the free unknowns: no inverse of M, so that all matrices are sparse.
+/// u' = v, M w' = f_ext(t, u) - f_int(u) - alpha M w on the free unknowns: no inverse of M, so that all
+/// matrices are sparse.
 template <class Beam>
 class MassForm : public FreeUnknowns<Beam> {
  public:
@@ -31,6 +32,7 @@ class MassForm : public FreeUnknowns<Beam> {
     const int n = this->count();
     this->velocities(t, y, value);
     this->forces(t, y);
+    this->damp(y);
     for (int i = 0; i < n; ++i) value[n + i] = this->f_[this->beam_->free()[i]];
   }
   void jacobian(double t, const double* y, double* values) const { combine(t, y, 0.0, 1.0, values); }
@@ -45,8 +47,8 @@ class MassForm : public FreeUnknowns<Beam> {
       values[layout_.pattern().column_start[j]] = a;  // row j is the first of columns j and n + j
       values[layout_.pattern().column_start[n + j]] = b;
     }
-    matrices_.add_mass(a, values);
-    if (b != 0.0) matrices_.add_stiffness(this->displacements(t, y), -b, values);
+    matrices_.add_mass(a - b * this->beam_->damping(), values);
+    if (b != 0.0) matrices_.add_stiffness(t, this->displacements(t, y), -b, values);
   }
 
  private:

@@ -6,8 +6,8 @@
 
 namespace gnomon::planar_beam {
 
-/// (1 - gamma J) x = b of the ODE form u' = w, w' = -M^-1 K u: with x_u = b_u + gamma x_w there remains
-///   (M + gamma^2 K) x_w = M b_w - gamma K b_u,
+/// (1 - gamma J) x = b of the ODE form u' = w, w' = -M^-1 K u - alpha w: with x_u = b_u + gamma x_w there
+/// remains ((1 + gamma alpha) M + gamma^2 K) x_w = M b_w - gamma K b_u,
 /// which is eliminated element by element. The cost is linear in the number of elements; M^-1, which would
 /// make J dense, is not needed.
 template <class Beam>
@@ -23,12 +23,14 @@ class NewtonElimination : private FreeUnknowns<Beam> {
 
   void linearise(double t, const double* y) {
     const double* u = this->displacements(t, y);
-    for (int e = 0; e < this->beam_->elements(); ++e) tangents_[e] = this->beam_->element_tangent(u, e);
+    for (int e = 0; e < this->beam_->elements(); ++e) tangents_[e] = this->beam_->element_tangent(t, u, e);
   }
   void factorise(double gamma) {
     gamma_ = gamma;
     const auto& element = this->beam_->element();
-    const double inertia[3] = {this->beam_->density(0), this->beam_->density(1), this->beam_->density(2)};
+    const double damped = 1.0 + gamma * this->beam_->damping();
+    double inertia[3];
+    for (int k = 0; k < 3; ++k) inertia[k] = damped * this->beam_->density(k);
     for (int e = 0; e < this->beam_->elements(); ++e) {
       matrix_ = gamma * gamma * tangents_[e];
       for (int a = 0; a <= p; ++a)

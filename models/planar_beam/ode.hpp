@@ -8,7 +8,8 @@
 
 namespace gnomon::planar_beam {
 
-/// ODE form: u' = v, w' = M^-1 (f_ext(t) - f_int(u)) on the free unknowns. The consistent mass matrix is
+/// ODE form: u' = v, w' = M^-1 (f_ext(t, u) - f_int(u)) - alpha w on the free unknowns; damping alpha acts on
+/// w alone because M_ff w is the whole momentum of the free unknowns. The consistent mass matrix is
 /// factorised as a band. The Jacobian is dense because its inverse is, so implicit solvers had better take
 /// `newton_solver`.
 template <class Beam>
@@ -24,7 +25,7 @@ class OdeForm : public FreeUnknowns<Beam> {
     this->forces(t, y);
     beam.accelerate(this->f_.data());
     this->velocities(t, y, rate);
-    for (int i = 0; i < n; ++i) rate[n + i] = this->f_[beam.free()[i]];
+    for (int i = 0; i < n; ++i) rate[n + i] = this->f_[beam.free()[i]] - beam.damping() * y[n + i];
   }
 
   void jacobian(double t, const double* y, double* values) const {
@@ -33,11 +34,12 @@ class OdeForm : public FreeUnknowns<Beam> {
     Eigen::Map<Eigen::MatrixXd> J(values, 2 * n, 2 * n);
     J.setZero();
     J.topRightCorner(n, n).setIdentity();
+    J.bottomRightCorner(n, n).diagonal().setConstant(-beam.damping());
     const double* u = this->displacements(t, y);
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(beam.unknowns(), beam.unknowns());
     constexpr int p = Beam::order, size = Element<p>::unknowns;
     for (int e = 0; e < beam.elements(); ++e)
-      K.block<size, size>(3 * p * e, 3 * p * e) += beam.element_tangent(u, e);
+      K.block<size, size>(3 * p * e, 3 * p * e) += beam.element_tangent(t, u, e);
     for (int j = 0; j < n; ++j) {
       auto column = K.col(beam.free()[j]);
       beam.accelerate(column.data());

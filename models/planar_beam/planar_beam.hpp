@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <string_view>
 #include <vector>
@@ -16,12 +17,13 @@
 #include "models/planar_beam/mass_form.hpp"
 #include "models/planar_beam/ode.hpp"
 #include "models/planar_beam/scales.hpp"
+#include "models/planar_beam/static_form.hpp"
 #include "models/planar_beam/statics.hpp"
 #include "src/model.hpp"
 
 namespace gnomon::planar_beam {
 
-/// A planar geometrically exact beam of equal elements of order p, between supports and under dead loads.
+/// A planar geometrically exact beam of equal elements of order p, between supports and under loads.
 template <int p>
 class PlanarBeam {
  public:
@@ -43,8 +45,9 @@ class PlanarBeam {
     add_loads();
     hold_ends();
     initial_ = start_state();
-    scales_ = estimate_scales(data_, centre_, turning_inertia(),
-                              kinetic_energy(initial_.v) + strain_energy(initial_.strain));
+    scales_ = estimate_scales(
+        data_, centre_, last_position(), turning_inertia(),
+        kinetic_energy(initial_.v) + strain_energy(initial_.strain) + spring_energy(initial_.u));
   }
 
   const Data& data() const { return data_; }
@@ -62,47 +65,105 @@ class PlanarBeam {
   /// The unknowns that a support holds or prescribes, ascending.
   const std::vector<int>& held() const { return held_; }
   const std::vector<int>& free() const { return free_; }
+  /// An unknown that a support moves. `response` are the rates of the same unknown of all nodes at a unit
+  /// jump of the prescribed rate: 1 at that node, -M_ff^-1 M_fc elsewhere.
+  struct Driven {
+    int unknown;
+    Motion motion;
+    Vector response;
+  };
+  const std::vector<Driven>& driven() const { return driven_; }
+  bool is_driven() const { return !driven_.empty(); }
   /// How unknown i moves, if a support prescribes it.
   const Motion* prescribed(int i) const {
-    if (i % 3 != 2 || (i != 2 && i != unknowns() - 1)) return nullptr;
-    const Support& support = data_.supports[i == 2 ? 0 : 1];
-    return support.motion ? &*support.motion : nullptr;
+    for (const Driven& one : driven_)
+      if (one.unknown == i) return &one.motion;
+    return nullptr;
   }
-  bool is_driven() const { return data_.supports[0].motion || data_.supports[1].motion; }
-  /// Rates of the nodes' rotations at a unit jump of the rate that support 0 or 1 prescribes: 1 at that node,
-  /// -M_ff^-1 M_fc elsewhere; empty where nothing is prescribed.
-  const Vector& jump_response(int end) const { return responses_[end]; }
   /// Turns the velocities from the limit before a jump of the prescribed rates at time t into that after it.
   void jump(double t, double* v) const {
-    for (int end = 0; end < 2; ++end)
-      if (const auto& motion = data_.supports[end].motion) {
-        const double change = motion->rate_after(t) - motion->rate_before(t);
-        if (change != 0.0)
-          for (int i = 0; i < nodes_; ++i) v[3 * i + 2] += change * responses_[end][i];
-      }
+    for (const Driven& one : driven_) {
+      const double change = one.motion.rate_after(t) - one.motion.rate_before(t);
+      if (change != 0.0)
+        for (int i = 0; i < nodes_; ++i) v[3 * i + one.unknown % 3] += change * one.response[i];
+    }
   }
 
   State initial() const { return initial_; }
   std::string_view load_class() const {
+    if (has_followers()) return "follower";
     return data_.loads.empty() && data_.gravity == 0.0 ? "none" : "dead";
   }
   double time_scale() const { return scales_.time; }
   const Scales& scales() const { return scales_; }
   std::vector<double> breaks() const {
     std::vector<double> times;
-    for (const Load& load : loads_)
-      if (load.profile != Profile::constant) times.push_back(load.duration);
-    for (const Support& support : data_.supports)
-      if (support.motion) times.push_back(support.motion->over);
+    for (const Load& load : data_.loads) {
+      if (load.profile == Profile::table)
+        times.insert(times.end(), load.table.t.begin(), load.table.t.end());
+      else if (load.profile != Profile::constant)
+        times.push_back(load.duration);
+    }
+    for (const Driven& one : driven_) {
+      const std::vector<double> own = one.motion.breaks();
+      times.insert(times.end(), own.begin(), own.end());
+    }
+    std::erase_if(times, [](double t) { return t <= 0.0; });
     std::sort(times.begin(), times.end());
     times.erase(std::unique(times.begin(), times.end()), times.end());
     return times;
   }
 
-  /// Nodal forces of all loads at time t, N and N m.
+  /// The stiffness of the torsion spring at the start or the end, N m/rad.
+  double spring(int end) const { return data_.supports[end].spring; }
+  bool has_springs() const { return spring(0) != 0.0 || spring(1) != 0.0; }
+  bool has_followers() const { return !followers_.empty(); }
+  /// 1/s, proportional to mass.
+  double damping() const { return data_.damping; }
+  /// The first unknown, ux, of the node at the start or the end.
+  int end_unknown(int end) const { return end == 0 ? 0 : unknowns() - 3; }
+
+  /// Adds the nodal forces of a load, dead, times a factor.
+  void add_load(const Load& load, double factor, double* force) const {
+    if (factor != 0.0) for_load(load, factor, [&](int i, double value) { force[i] += value; });
+  }
+  /// Nodal forces of the dead loads at time t, N and N m.
   void external_force(double t, double* force) const {
     std::fill(force, force + unknowns(), 0.0);
     for (const Load& load : loads_) add_load(load, load.factor(t), force);
+  }
+  /// The load at an end that turns with its section, at time t and rotation phi: its force R(phi)^T f and the
+  /// derivative of that by phi.
+  struct Following {
+    std::array<double, 2> force{}, slope{};
+
+    void add(double factor, const Load& load, double phi) {
+      const double c = std::cos(phi), s = std::sin(phi);
+      const double x = factor * load.force[0], z = factor * load.force[1];
+      force[0] += c * x + s * z;
+      force[1] += c * z - s * x;
+      slope[0] += c * z - s * x;
+      slope[1] -= c * x + s * z;
+    }
+  };
+  Following following(double t, int end, double phi) const {
+    Following sum;
+    for (const Load& load : followers_)
+      if (load.at == (end == 0 ? Place::start : Place::end)) sum.add(load.factor(t), load, phi);
+    return sum;
+  }
+  const std::vector<Load>& followers() const { return followers_; }
+  /// All but the followers' forces, the weight among them.
+  const std::vector<Load>& dead_loads() const { return loads_; }
+  /// Adds the followers' forces in the configuration u.
+  void add_following(double t, const double* u, double* force) const {
+    if (!has_followers()) return;
+    for (int end = 0; end < 2; ++end) {
+      const int i = end_unknown(end);
+      const Following one = following(t, end, u[i + 2]);
+      force[i] += one.force[0];
+      force[i + 1] += one.force[1];
+    }
   }
   /// Nodal forces that the strained beam exerts against u: the derivative of its strain energy by u.
   void internal_force(const double* u, double* force) const {
@@ -110,12 +171,34 @@ class PlanarBeam {
     for (int e = 0; e < elements(); ++e)
       for (int g = 0; g < p; ++g)
         element_.add_force(g, strain_at(u, e, g).force(section()), force + 3 * p * e);
+    for (int end = 0; end < 2; ++end) force[end_unknown(end) + 2] += spring(end) * u[end_unknown(end) + 2];
   }
-  /// The derivative of the internal force of one element by its own nodal values.
+  /// The derivative of the internal force of one element, that of the springs at its ends included, by its
+  /// own nodal values.
   typename Element<p>::Matrix element_tangent(const double* u, int e) const {
     typename Element<p>::Matrix matrix = Element<p>::Matrix::Zero();
     for (int g = 0; g < p; ++g) element_.add_tangent(g, strain_at(u, e, g).tangent(section()), matrix);
+    if (has_springs()) for_ends_of(e, [&](int end, int i) { matrix(i + 2, i + 2) += spring(end); });
     return matrix;
+  }
+  /// The derivative of internal less external force of one element at time t: not symmetric where a load
+  /// follows.
+  typename Element<p>::Matrix element_tangent(double t, const double* u, int e) const {
+    typename Element<p>::Matrix matrix = element_tangent(u, e);
+    if (has_followers())
+      for_ends_of(e, [&](int end, int i) {
+        const Following one = following(t, end, u[end_unknown(end) + 2]);
+        matrix(i, i + 2) -= one.slope[0];
+        matrix(i + 1, i + 2) -= one.slope[1];
+      });
+    return matrix;
+  }
+  /// Calls `body(end, i)` for the ends of the beam that element e has, i being the end's first unknown within
+  /// the element.
+  template <class Body>
+  void for_ends_of(int e, Body&& body) const {
+    if (e == 0) body(0, 0);
+    if (e == elements() - 1) body(1, 3 * p);
   }
   /// Density of unknown k of a node: rho A for places, rho I for the rotation.
   double density(int k) const { return k < 2 ? section().rhoA : section().rhoI; }
@@ -131,7 +214,7 @@ class PlanarBeam {
   /// Turns nodal forces into accelerations, those of held unknowns into 0.
   void accelerate(double* force) const {
     for (int i : held_) force[i] = 0.0;
-    MassBand<p>::solve(mass_[0], mass_[1], force);
+    MassBand<p>::solve(mass_[0], mass_[mass_.size() == 3 ? 1 : 0], mass_.back(), force);
     const double place = 1.0 / section().rhoA, rotation = 1.0 / section().rhoI;
     for (int i = 0; i < nodes_; ++i) {
       force[3 * i] *= place;
@@ -206,24 +289,26 @@ class PlanarBeam {
     return planar_beam::field_distance(field, reference);
   }
 
-  /// Energy, and the momenta of a beam that nothing holds or pushes; from the end of the last change of the
-  /// loads on.
+  /// Energy, unless something goes on to do work, and the momenta of a beam that nothing holds or pushes;
+  /// from the end of the last change of the loads on.
   std::vector<InvariantInfo> invariant_info() const {
     const std::vector<double> times = breaks();
     const double since = times.empty() ? 0.0 : times.back();
-    std::vector<InvariantInfo> infos{{"energy", 1, since, scales_.energy}};
+    std::vector<InvariantInfo> infos;
+    if (keeps_energy()) infos.push_back({"energy", 1, since, scales_.energy});
     if (is_free_at_last()) {
       infos.push_back({"linear_momentum", 2, since, scales_.momentum});
       infos.push_back({"angular_momentum", 1, since, scales_.angular_momentum});
     }
     return infos;
   }
-  /// energy: kinetic and strain energy and the potential of the loads as they are in the end [J]; where a
-  /// prescribed rate jumps, after the jump. linear_momentum: (x, z) [N s]. angular_momentum: about the
-  /// origin, along +y [N m s].
+  /// energy: kinetic and strain energy and the potential of springs and of the loads as they are in the end
+  /// [J]; where a prescribed rate jumps, after the jump. linear_momentum: (x, z) [N s]. angular_momentum:
+  /// about the origin, along +y [N m s].
   void invariants(double t, const State& state, double* out) const {
-    *out++ = kinetic_energy(state.v) + energy_of_jump(t, state.v) + strain_energy(state.strain) +
-             load_potential(state.u);
+    if (keeps_energy())
+      *out++ = kinetic_energy(state.v) + energy_of_jump(t, state.v) + strain_energy(state.strain) +
+               spring_energy(state.u) + load_potential(state.u);
     if (!is_free_at_last()) return;
     const std::array<double, 3> momenta = this->momenta(state);
     std::copy(momenta.begin(), momenta.end(), out);
@@ -243,28 +328,39 @@ class PlanarBeam {
     }
     return sum;
   }
+  double spring_energy(const Vector& u) const {
+    double sum = 0.0;
+    for (int end = 0; end < 2; ++end) {
+      const double phi = u[end_unknown(end) + 2];
+      sum += 0.5 * spring(end) * phi * phi;
+    }
+    return sum;
+  }
   /// What the impulse of a jump of the prescribed rates at time t adds to the kinetic energy.
   double energy_of_jump(double t, const Vector& v) const {
     if (!is_driven()) return 0.0;
-    double jumps[2] = {0.0, 0.0};
-    for (int end = 0; end < 2; ++end)
-      if (const auto& motion = data_.supports[end].motion) {
-        const double at = motion->snapped(t, 1e-9 * motion->over);
-        jumps[end] = motion->rate_after(at) - motion->rate_before(at);
-      }
-    if (jumps[0] == 0.0 && jumps[1] == 0.0) return 0.0;
-    // (v + r j)^T M (v + r j)/2 - v^T M v/2 with the jumps r j of the nodes' angular velocities
-    double sum = 0.0;
-    const auto jump_at = [&](int i) {
-      return (jumps[0] == 0.0 ? 0.0 : jumps[0] * responses_[0][i]) +
-             (jumps[1] == 0.0 ? 0.0 : jumps[1] * responses_[1][i]);
+    const auto change = [&](const Driven& one) {
+      const double at = one.motion.snapped(t, 1e-9 * one.motion.over);
+      return one.motion.rate_after(at) - one.motion.rate_before(at);
     };
-    for (int e = 0; e < elements(); ++e)
-      for (int a = 0; a <= p; ++a)
-        for (int b = 0; b <= p; ++b)
-          sum +=
-              element_.mass[a][b] * jump_at(e * p + a) * (v[3 * (e * p + b) + 2] + 0.5 * jump_at(e * p + b));
-    return density(2) * sum;
+    if (std::none_of(driven_.begin(), driven_.end(), [&](const Driven& one) { return change(one) != 0.0; }))
+      return 0.0;
+    // (v + j)^T M (v + j)/2 - v^T M v/2 with the jumps j of one component of all nodes
+    double sum = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const auto jump_at = [&](int i) {
+        double jump = 0.0;
+        for (const Driven& one : driven_)
+          if (one.unknown % 3 == k) jump += change(one) * one.response[i];
+        return jump;
+      };
+      for (int e = 0; e < elements(); ++e)
+        for (int a = 0; a <= p; ++a)
+          for (int b = 0; b <= p; ++b)
+            sum += density(k) * element_.mass[a][b] * jump_at(e * p + a) *
+                   (v[3 * (e * p + b) + k] + 0.5 * jump_at(e * p + b));
+    }
+    return sum;
   }
   /// Minus the work of the loads that stay, from rest on.
   double load_potential(const Vector& u) const {
@@ -295,21 +391,41 @@ class PlanarBeam {
   MassForm<PlanarBeam> mass_form() const { return MassForm<PlanarBeam>(*this); }
   DaeForm<PlanarBeam> dae() const { return DaeForm<PlanarBeam>(*this); }
   ConstraintDaeForm<PlanarBeam> dae_constraints() const { return ConstraintDaeForm<PlanarBeam>(*this); }
+  /// Equilibrium under the loads of a case. Refers to this beam.
+  std::unique_ptr<StaticSystem> statics(LoadCase load_case = LoadCase::last) const {
+    return std::make_unique<StaticForm<PlanarBeam>>(*this, load_case);
+  }
   bool is_constrained() const { return !held_.empty(); }
 
  private:
   /// phi0 at arc length x.
-  double angle(double x) const { return data_.angle + data_.curvature * x; }
+  double angle(double x) const {
+    double sum = data_.angle + data_.curvature * x;
+    for (const Bend& bend : data_.bends)
+      if (bend.at < x) sum += bend.angle;
+    return sum;
+  }
+  /// The node where two elements meet at arc length x.
+  int node_at(double x) const { return p * static_cast<int>(std::lround(x / element_.length)); }
 
   void place_nodes() {
     positions_.resize(2 * static_cast<std::size_t>(nodes_));
     const double half_turn = 0.5 * data_.curvature;
+    std::array<double, 2> from = data_.start;  // of the piece between two bends, as are the next two
+    double direction = data_.angle;
+    int first = 0;
+    std::size_t bend = 0;
     for (int i = 0; i < nodes_; ++i) {
       // A chord of a circle: length sin(k x/2)/(k/2), direction that of the tangent at x/2.
-      const double x = data_.length * i / (nodes_ - 1), a = half_turn * x;
+      const double x = data_.length * (i - first) / (nodes_ - 1), a = half_turn * x;
       const double chord = std::abs(a) < 1e-4 ? x * (1.0 - a * a / 6.0) : std::sin(a) / half_turn;
-      positions_[2 * i] = data_.start[0] + chord * std::cos(data_.angle + a);
-      positions_[2 * i + 1] = data_.start[1] + chord * std::sin(data_.angle + a);
+      positions_[2 * i] = from[0] + chord * std::cos(direction + a);
+      positions_[2 * i + 1] = from[1] + chord * std::sin(direction + a);
+      if (bend < data_.bends.size() && i == node_at(data_.bends[bend].at)) {
+        from = {positions_[2 * i], positions_[2 * i + 1]};
+        direction += 2.0 * a + data_.bends[bend++].angle;
+        first = i;
+      }
     }
     for (int k = 0; k < 2; ++k) {
       double sum = 0.0;
@@ -336,32 +452,49 @@ class PlanarBeam {
       }
   }
   void add_loads() {
-    loads_ = data_.loads;
+    for (const Load& load : data_.loads) {
+      if (!load.follower) {
+        loads_.push_back(load);
+        continue;
+      }
+      followers_.push_back(load);
+      if (load.moment != 0.0) {
+        loads_.push_back(load);
+        loads_.back().force = {0.0, 0.0};
+      }
+    }
     if (data_.gravity != 0.0)
       loads_.push_back(
           {Place::distributed, {0.0, -data_.gravity * section().rhoA}, 0.0, Profile::constant, 0.0});
   }
   void hold_ends() {
-    for (Support& support : data_.supports)
+    for (Support& support : data_.supports) {
       if (support.motion) support.place = support.rotation = true;
+      if (support.displacement[0] || support.displacement[1]) support.place = true;
+    }
+    const auto& ends = data_.supports;
     for (int end = 0; end < 2; ++end)
       for (int k = 0; k < 3; ++k)
-        if (k < 2 ? data_.supports[end].place : data_.supports[end].rotation)
-          held_.push_back(3 * (end == 0 ? 0 : nodes_ - 1) + k);
+        if (ends[end].holds(k)) held_.push_back(3 * (end == 0 ? 0 : nodes_ - 1) + k);
     for (int i = 0; i < unknowns(); ++i)
       if (!std::binary_search(held_.begin(), held_.end(), i)) free_.push_back(i);
-    const auto& ends = data_.supports;
-    mass_ = {MassBand<p>(element_, elements(), ends[0].place, ends[1].place),
-             MassBand<p>(element_, elements(), ends[0].rotation, ends[1].rotation)};
-    for (int end = 0; end < 2; ++end)
-      if (ends[end].motion) responses_[end] = response_to(end == 0 ? 0 : nodes_ - 1);
+    const auto band = [&](int k) {
+      return MassBand<p>(element_, elements(), ends[0].holds(k), ends[1].holds(k));
+    };
+    mass_.push_back(band(0));
+    if (ends[0].slide || ends[1].slide) mass_.push_back(band(1));
+    mass_.push_back(band(2));
+    for (int i : held_)
+      if (const Motion* motion = ends[i < 3 ? 0 : 1].motion_of(i % 3))
+        driven_.push_back({i, *motion, response_to(i)});
   }
   Vector response_to(int driven) const {
     Vector unit = Vector::Zero(unknowns()), forces(unknowns()), response(nodes_);
-    unit[3 * driven + 2] = 1.0;
+    unit[driven] = 1.0;
     momentum(unit.data(), forces.data());
     accelerate(forces.data());
-    for (int i = 0; i < nodes_; ++i) response[i] = i == driven ? 1.0 : -forces[3 * i + 2];
+    for (int i = 0; i < nodes_; ++i) response[i] = -forces[3 * i + driven % 3];
+    response[driven / 3] = 1.0;
     return response;
   }
   State start_state() const {
@@ -391,12 +524,9 @@ class PlanarBeam {
         for (int a = 0; a <= p; ++a)
           for (int k = 0; k < 3; ++k) add(3 * (e * p + a) + k, element_.load[a] * f[k]);
     } else {
-      const int node = load.at == Place::start ? 0 : nodes_ - 1;
+      const int node = load.at == Place::start ? 0 : load.at == Place::end ? nodes_ - 1 : node_at(load.x);
       for (int k = 0; k < 3; ++k) add(3 * node + k, f[k]);
     }
-  }
-  void add_load(const Load& load, double factor, double* force) const {
-    if (factor != 0.0) for_load(load, factor, [&](int i, double value) { force[i] += value; });
   }
   /// int a b dx of two interpolated fields, nodal values three apart.
   double scalar_product(const double* a, const double* b) const {
@@ -406,9 +536,19 @@ class PlanarBeam {
         for (int j = 0; j <= p; ++j) sum += element_.mass[i][j] * a[3 * (e * p + i)] * b[3 * (e * p + j)];
     return sum;
   }
+  static bool all_end(const std::vector<Load>& loads) {
+    return std::all_of(loads.begin(), loads.end(), [](const Load& l) { return l.final_factor() == 0.0; });
+  }
+  bool keeps_energy() const {
+    return damping() == 0.0 && all_end(followers_) &&
+           std::all_of(driven_.begin(), driven_.end(),
+                       [](const Driven& one) { return one.motion.ends_at_rest(); });
+  }
   bool is_free_at_last() const {
-    return held_.empty() &&
-           std::all_of(loads_.begin(), loads_.end(), [](const Load& l) { return l.final_factor() == 0.0; });
+    return held_.empty() && damping() == 0.0 && !has_springs() && all_end(loads_) && all_end(followers_);
+  }
+  std::array<double, 2> last_position() const {
+    return {positions_[2 * (nodes_ - 1)], positions_[2 * (nodes_ - 1) + 1]};
   }
   /// Moment of inertia about the centre of mass at rest.
   double turning_inertia() const {
@@ -427,10 +567,11 @@ class PlanarBeam {
   std::vector<double> positions_;
   std::array<double, 2> centre_{};
   std::vector<PointReference> points_;
-  std::vector<Load> loads_;
+  std::vector<Load> loads_,
+      followers_;  ///< dead ones, moments of followers among them, and followers' forces
   std::vector<int> held_, free_;
-  std::array<MassBand<p>, 2> mass_;  ///< of places and of rotations
-  std::array<Vector, 2> responses_;
+  std::vector<MassBand<p>> mass_;  ///< of x and z, or of both, and of rotations
+  std::vector<Driven> driven_;
   State initial_;
   Scales scales_;
 };

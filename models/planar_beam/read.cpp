@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "models/planar_beam/planar_beam.hpp"
+#include "models/planar_beam/read_parts.hpp"
 #include "models/planar_beam/saved_state.hpp"
 #include "src/scene_reader.hpp"
 
@@ -18,9 +20,30 @@ using Table = Section;
 
 std::array<double, 2> pair(const std::vector<double>& v) { return {v[0], v[1]}; }
 
+/// Rigid joints, each where two elements meet.
+Json read_bends(Table& beam, Data& data) {
+  Json resolved = Json::array();
+  for (Table& table : beam.sections("bends")) {
+    table.only({"at", "angle"});
+    const std::string meeting =
+        fmt::format("a multiple of {:.6g} m, where two elements meet, behind the bend before it",
+                    data.length / data.elements);
+    Bend bend{};
+    bend.at = table.number("at", meeting);
+    if (!is_meeting(bend.at, data) || (!data.bends.empty() && !(data.bends.back().at < bend.at)))
+      table.fail("at", table.shown("at"), meeting);
+    const char* angle = "a number between -pi and pi (rad, from x towards z)";
+    bend.angle = table.number("angle", angle);
+    if (!(std::abs(bend.angle) < std::numbers::pi)) table.fail("angle", table.shown("angle"), angle);
+    data.bends.push_back(bend);
+    resolved.push_back({{"at", bend.at}, {"angle", bend.angle}});
+  }
+  return resolved;
+}
+
 void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
   beam.only({"length", "elements", "order", "EA", "GA", "EI", "rhoA", "rhoI", "start", "angle", "curvature",
-             "gravity", "geometry"});
+             "gravity", "damping", "bends", "geometry"});
   data.length = beam.positive("length", "a positive number (m)");
   data.elements = beam.integer("elements", 1, 1'000'000, "a whole number from 1 to 1000000");
   order = beam.integer("order", 1, 4, "a whole number from 1 to 4 (polynomial order of an element)");
@@ -33,6 +56,9 @@ void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
   data.angle = beam.number_or("angle", 0.0, "a finite number (rad, from x towards z)");
   data.curvature = beam.number_or("curvature", 0.0, "a finite number (1/m)");
   data.gravity = beam.number_or("gravity", 0.0, "a finite number (m/s^2, along -z)");
+  const char* damping = "a number that is not negative (1/s, proportional to mass)";
+  data.damping = beam.number_or("damping", 0.0, damping);
+  if (data.damping < 0.0) beam.fail("damping", beam.shown("damping"), damping);
   std::string geometry = "interpolated";
   if (beam.has("geometry")) geometry = beam.one_of("geometry", {"interpolated", "exact"});
   data.geometry = geometry == "exact" ? Geometry::exact : Geometry::interpolated;
@@ -41,6 +67,7 @@ void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
   if (turn > 1.5)
     beam.fail("curvature", fmt::format("{}, {:.3g} rad an element", beam.shown("curvature"), turn),
               "at most 1.5 rad an element");
+  const Json bends = read_bends(beam, data);
   const planar_beam::CrossSection& s = data.section;
   resolved["beam"] = {{"length", data.length},
                       {"elements", data.elements},
@@ -54,99 +81,13 @@ void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
                       {"angle", data.angle},
                       {"curvature", data.curvature},
                       {"gravity", data.gravity},
+                      {"damping", data.damping},
+                      {"bends", bends},
                       {"geometry", geometry}};
 }
 
-/// The prescribed rotation of an end.
-Motion read_motion(Table& end, Json& resolved) {
-  std::optional<Table> rotation = end.section("rotation");
-  if (!rotation) end.fail("rotation", "nothing", "a table { kind = \"ramp\", to = .., over = .. } (rad, s)");
-  const std::string kind = rotation->one_of("kind", {"ramp"});
-  rotation->only({"kind", "to", "over"}, fmt::format("kind \"{}\"", kind));
-  Motion motion;
-  motion.to = rotation->number("to", "a finite number (about +y, rad)");
-  motion.over = rotation->positive("over", "a positive number (s)");
-  resolved["rotation"] = {{"kind", kind}, {"to", motion.to}, {"over", motion.over}};
-  return motion;
-}
-
-Support read_support(Table& supports, const char* key, Json& resolved) {
-  std::string kind = "free";
-  Support support;
-  if (!supports.has(key)) {
-    resolved = kind;
-    return support;
-  }
-  const std::vector<std::string> kinds{"free", "pinned", "clamped"};
-  if (supports.is_table(key)) {
-    Table end = *supports.section(key);
-    kind = end.one_of("kind", {"free", "pinned", "clamped", "rotated"});
-    const bool rotated = kind == "rotated";
-    end.only(rotated ? std::vector<std::string>{"kind", "rotation"} : std::vector<std::string>{"kind"},
-             fmt::format("kind \"{}\"", kind));
-    if (rotated) {
-      resolved = {{"kind", kind}};
-      return {true, true, read_motion(end, resolved)};
-    }
-  } else {
-    const std::string expected =
-        choices_text(kinds) + ", or a table { kind = \"rotated\", rotation = { .. } }";
-    kind = supports.text(key, expected);
-    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
-      supports.fail(key, supports.shown(key), expected);
-  }
-  resolved = kind;
-  return {kind != "free", kind == "clamped", std::nullopt};
-}
-
-void read_supports(Table& root, Data& data, Json& resolved) {
-  Json& both = resolved["supports"] = {{"start", "free"}, {"end", "free"}};
-  if (std::optional<Table> supports = root.section("supports")) {
-    supports->only({"start", "end"});
-    data.supports[0] = read_support(*supports, "start", both["start"]);
-    data.supports[1] = read_support(*supports, "end", both["end"]);
-  }
-}
-
-void read_profile(Table& table, Load& load, Json& resolved) {
-  std::string kind = "constant";
-  resolved["profile"] = {{"kind", kind}};
-  std::optional<Table> profile = table.section("profile");
-  if (!profile) return;
-  kind = profile->one_of("kind", {"constant", "step", "ramp", "half-sine"});
-  resolved["profile"]["kind"] = kind;
-  const std::string owner = fmt::format("kind \"{}\"", kind);
-  if (kind == "constant") {
-    profile->only({"kind"}, owner);
-    return;
-  }
-  const char* key = kind == "step" ? "until" : "over";
-  profile->only({"kind", key}, owner);
-  load.profile = kind == "step" ? Profile::step : kind == "ramp" ? Profile::ramp : Profile::half_sine;
-  load.duration = profile->positive(key, "a positive number (s)");
-  resolved["profile"][key] = load.duration;
-}
-
-void read_loads(Table& root, Data& data, Json& resolved) {
-  resolved["loads"] = Json::array();
-  for (Table& table : root.sections("loads")) {
-    table.only({"at", "force", "moment", "profile"});
-    Load load;
-    Json one;
-    const std::string at = table.one_of("at", {"start", "end", "distributed"});
-    load.at = at == "start" ? Place::start : at == "end" ? Place::end : Place::distributed;
-    load.force = pair(table.numbers_or("force", {0.0, 0.0}, "two finite numbers (x, z, N or N/m)"));
-    load.moment = table.number_or("moment", 0.0, "a finite number (about +y, N m or N m/m)");
-    one["at"] = at;
-    one["force"] = load.force;
-    one["moment"] = load.moment;
-    read_profile(table, load, one);
-    data.loads.push_back(load);
-    resolved["loads"].push_back(one);
-  }
-}
-
-void read_initial(Table& root, Data& data, Json& resolved) {
+/// True where the beam is to start in equilibrium.
+bool read_initial(Table& root, Data& data, Json& resolved) {
   Json& given = resolved["initial"];
   if (std::optional<Table> initial = root.section("initial")) {
     initial->only({"velocity", "angular_velocity", "state"});
@@ -154,15 +95,18 @@ void read_initial(Table& root, Data& data, Json& resolved) {
       for (const char* key : {"velocity", "angular_velocity"})
         if (initial->has(key))
           initial->fail(key, fmt::format("both state and {}", key), "only one of them (the motion at t = 0)");
-      given["state"] = initial->text("state", "the path of a file written by gnomon run --json, in quotes");
+      given["state"] =
+          initial->text("state", "\"static\", or the path of a file written by gnomon run --json, in quotes");
+      if (given["state"] == "static") return true;
       read_saved_state(*initial, resolved["beam"], data);
       given["state_hash"] = hash_of(data);
-      return;
+      return false;
     }
     data.velocity = pair(initial->numbers_or("velocity", {0.0, 0.0}, "two finite numbers (x, z, m/s)"));
     data.angular_velocity = initial->number_or("angular_velocity", 0.0, "a finite number (about +y, rad/s)");
   }
   given = {{"velocity", data.velocity}, {"angular_velocity", data.angular_velocity}};
+  return false;
 }
 
 /// The initial motion must be one that the supports allow.
@@ -187,8 +131,25 @@ void check_motion(const PlanarBeam<p>& beam, const Table& root) {
   }
 }
 
+/// Starts the beam in equilibrium with the loads of t = 0.
+void start_at_rest(StaticSystem& system, const Table& root, Data& data) {
+  if (const std::string found = system.refusal(); !found.empty())
+    root.fail("initial", found, "supports that hold the beam where it is to start in equilibrium");
+  const StaticPath path = follow_equilibrium(system);
+  if (path.status != Status::ok)
+    root.fail("initial", path.message,
+              "loads at t = 0 that the beam bears where it is to start in equilibrium");
+  const std::vector<double>& state = path.points.back().state;
+  data.u.assign(state.begin(), state.begin() + system.size());
+  data.v.assign(data.u.size(), 0.0);
+}
+
 template <int p>
-std::shared_ptr<const AnyModel> make(const Data& data, const Table& root) {
+std::shared_ptr<const AnyModel> make(Data& data, bool at_rest, const Table& root) {
+  if (at_rest) {
+    const PlanarBeam<p> beam(data);
+    start_at_rest(*beam.statics(LoadCase::first), root, data);
+  }
   PlanarBeam<p> beam(data);
   check_motion(beam, root);
   return box(std::move(beam));
@@ -206,14 +167,14 @@ ParsedModel read(Section& root, double t_end) {
   int order = 1;
   Json resolved;
   read_beam(*table, data, order, resolved);
-  read_initial(root, data, resolved);
+  const bool at_rest = read_initial(root, data, resolved);
   read_supports(root, data, resolved);
   read_loads(root, data, resolved);
   ParsedModel parsed;
-  parsed.model = order == 1   ? make<1>(data, root)
-                 : order == 2 ? make<2>(data, root)
-                 : order == 3 ? make<3>(data, root)
-                              : make<4>(data, root);
+  parsed.model = order == 1   ? make<1>(data, at_rest, root)
+                 : order == 2 ? make<2>(data, at_rest, root)
+                 : order == 3 ? make<3>(data, at_rest, root)
+                              : make<4>(data, at_rest, root);
   parsed.resolved = std::make_shared<Json>(std::move(resolved));
   return parsed;
 }

@@ -42,8 +42,11 @@ void read_saved_state(Section& initial, const Json& beam, Data& data) {
                : "which names no model",
            "a state of model planar_beam");
   const Json other = scene.value("beam", Json::object());
-  for (const char* key : {"length", "elements", "order", "start", "angle", "curvature"})
-    if (const Json value = other.is_object() ? other.value(key, Json()) : Json(); value != beam.at(key))
+  for (const char* key : {"length", "elements", "order", "start", "angle", "curvature", "bends"})
+    if (const Json value = other.is_object()
+                               ? other.value(key, key == std::string("bends") ? Json::array() : Json())
+                               : Json();
+        value != beam.at(key))
       refuse(fmt::format("a beam with {} = {}", key, output::plain_text(value.dump())),
              fmt::format("one with {} = {}", key, beam.at(key).dump()));
   if (const Json status = run.value("status", Json()); status != "ok")

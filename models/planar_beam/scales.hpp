@@ -14,9 +14,10 @@ struct Scales {
 
 /// From the energy at the start and what the loads bring: a free beam is moved by their impulses like a
 /// rigid body, a held one is bent like a cantilever, at most to the length of the beam or one radian.
-/// `inertia` is about the centre of mass [kg m^2].
-inline Scales estimate_scales(const Data& data, const std::array<double, 2>& centre, double inertia,
-                              double initial) {
+/// `inertia` is about the centre of mass [kg m^2], `last` the
+/// place of the beam's end [m].
+inline Scales estimate_scales(const Data& data, const std::array<double, 2>& centre,
+                              const std::array<double, 2>& last, double inertia, double initial) {
   const CrossSection& s = data.section;
   const double L = data.length, mass = s.rhoA * L;
   const bool held = data.supports[0].place || data.supports[1].place;
@@ -35,11 +36,7 @@ inline Scales estimate_scales(const Data& data, const std::array<double, 2>& cen
     const double time = size * load.impulse(data.horizon);
     double at[2] = {centre[0], centre[1]};
     if (load.at == Place::start) at[0] = data.start[0], at[1] = data.start[1];
-    if (load.at == Place::end) {
-      const double a = 0.5 * data.curvature * L, chord = std::abs(a) < 1e-8 ? L : L * std::sin(a) / a;
-      at[0] = data.start[0] + chord * std::cos(data.angle + a);
-      at[1] = data.start[1] + chord * std::sin(data.angle + a);
-    }
+    if (load.at == Place::end) at[0] = last[0], at[1] = last[1];
     impulse[0] += time * load.force[0];
     impulse[1] += time * load.force[1];
     impulse[2] +=
@@ -47,11 +44,13 @@ inline Scales estimate_scales(const Data& data, const std::array<double, 2>& cen
   }
   energy += (impulse[0] * impulse[0] + impulse[1] * impulse[1]) / (2.0 * mass) +
             impulse[2] * impulse[2] / (2.0 * inertia);
-  for (int end = 0; end < 2; ++end)
-    if (const auto& motion = data.supports[end].motion) {  // turned like a rigid body round that end
-      const double rate = motion->to / motion->over;
-      energy += 0.5 * (inertia + mass * L * L / 4.0) * rate * rate;
-    }
+  for (const Support& end : data.supports) {  // moved like a rigid body, or turned like one round that end
+    for (const auto& motion : end.displacement)
+      if (motion) energy += 0.5 * mass * motion->largest_rate() * motion->largest_rate();
+    if (end.motion)
+      energy +=
+          0.5 * (inertia + mass * L * L / 4.0) * end.motion->largest_rate() * end.motion->largest_rate();
+  }
   energy += weight * (held ? std::min(L, weight * L * L * L / (8.0 * s.EI) + weight * L / s.GA)
                            : 0.5 * std::abs(data.gravity) * data.horizon * data.horizon);
   if (held && !data.supports[0].rotation && !data.supports[1].rotation &&

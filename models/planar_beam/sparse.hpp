@@ -56,11 +56,11 @@ class ChainMatrices {
       if (i % 3 == j % 3) mass_.push_back({e, i, j, layout.slot(row_ + to_row, column_ + to_column)});
     });
   }
-  void add_stiffness(const double* u, double factor, double* values) const {
+  void add_stiffness(double t, const double* u, double factor, double* values) const {
     typename Element<p>::Matrix K;
     int e = -1;
     for (const Entry& at : stiffness_) {
-      if (at.e != e) K = beam_->element_tangent(u, e = at.e);
+      if (at.e != e) K = beam_->element_tangent(t, u, e = at.e);
       values[at.slot] += factor * K(at.i, at.j);
     }
   }

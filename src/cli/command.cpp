@@ -33,13 +33,13 @@ double number(const std::string& option, const std::string& text, const std::str
   return value;
 }
 
-long whole(const std::string& option, const std::string& text, long most) {
-  long value = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || value < 1 || value > most)
-    refuse(option, text, fmt::format("a whole number from 1 to {}, in digits", most));
-  return value;
+/// Writes to a file, to standard output where that is "-", or not at all.
+void write_text(const std::string& name, const std::string& text) {
+  if (name.empty()) return;
+  if (name == "-")
+    fmt::print("{}", text);
+  else
+    output::write_file_atomically(name, text);
 }
 
 /// Throws if what was printed could not be written, as on a full disk.
@@ -72,6 +72,15 @@ std::vector<std::string> split(const std::string& text) {
 double positive_number(const std::string& option, const std::string& text, const std::string& expected) {
   const double value = number(option, text, expected);
   if (value <= 0.0) refuse(option, text, expected);
+  return value;
+}
+
+long whole_number(const std::string& option, const std::string& text, long most) {
+  long value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || value < 1 || value > most)
+    refuse(option, text, fmt::format("a whole number from 1 to {}, in digits", most));
   return value;
 }
 
@@ -109,9 +118,9 @@ StudyOptions study_options(const Request& request) {
     options.steps = {positive_number("--step", request.step, "a positive number (s)")};
   if (!request.tol.empty()) options.tols = {tolerance("--tol", request.tol, tolerance_text)};
   if (!request.samples.empty())
-    options.samples = static_cast<int>(whole("--samples", request.samples, 1'000'000));
+    options.samples = static_cast<int>(whole_number("--samples", request.samples, 1'000'000));
   if (!request.max_steps.empty())
-    options.max_steps = whole("--max-steps", request.max_steps, 1'000'000'000'000'000);
+    options.max_steps = whole_number("--max-steps", request.max_steps, 1'000'000'000'000'000);
   if (!request.time_limit.empty())
     options.time_limit = positive_number("--time-limit", request.time_limit, "a positive number (s)");
   if (!request.newton_tol.empty())
@@ -194,26 +203,19 @@ void show(const Request& request, const output::Table& table) { say(request, out
 
 void write_outputs(const Request& request, const Document& document,
                    const std::vector<output::Table>& tables) {
-  const auto write = [](const std::string& name, const std::string& text) {
-    if (name.empty()) return;
-    if (name == "-")
-      fmt::print("{}", text);
-    else
-      output::write_file_atomically(name, text);
-  };
-  write(request.json, document.text());
-  std::string csv;
-  for (const output::Table& table : tables) csv += (csv.empty() ? "" : "\n") + output::to_csv(table);
-  write(request.csv, csv);
-  flush_output();
+  write_text(request.json, document.text());
+  write_csv(request, tables);
 }
 
 void write_json(const Request& request, const nlohmann::ordered_json& json) {
-  if (request.json.empty()) return;
-  if (request.json == "-")
-    fmt::print("{}\n", json.dump(1));
-  else
-    output::write_file_atomically(request.json, json.dump(1) + "\n");
+  write_text(request.json, json.dump(1) + "\n");
+  flush_output();
+}
+
+void write_csv(const Request& request, const std::vector<output::Table>& tables) {
+  std::string csv;
+  for (const output::Table& table : tables) csv += (csv.empty() ? "" : "\n") + output::to_csv(table);
+  write_text(request.csv, csv);
   flush_output();
 }
 

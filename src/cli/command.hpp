@@ -25,10 +25,11 @@ struct Request {
   std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol,
       spectral_radius;
   std::vector<std::string> set;
-  std::string refine;  ///< of `converge`
-  std::string study;   ///< of `bench`
+  std::string refine;      ///< of `converge`
+  std::string load_steps;  ///< of `static`
+  std::string study;       ///< of `bench`
   std::string json, csv, out;
-  bool modified_newton = false;
+  bool modified_newton = false, arc_length = false;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
 };
 
@@ -48,6 +49,9 @@ void warn(const std::vector<Scene>& scenes);
 /// A positive number from the command line, in the unit that `expected` names.
 double positive_number(const std::string& option, const std::string& text, const std::string& expected);
 
+/// A whole number from 1 to `most`.
+long whole_number(const std::string& option, const std::string& text, long most);
+
 /// The parts of a list with commas; an empty text has none.
 std::vector<std::string> split(const std::string& text);
 
@@ -60,8 +64,9 @@ void say(const Request& request, const std::string& line);
 void write_outputs(const Request& request, const Document& document,
                    const std::vector<output::Table>& tables);
 
-/// Writes a document that holds no runs.
+/// Write --json and --csv of commands that make no study.
 void write_json(const Request& request, const nlohmann::ordered_json& json);
+void write_csv(const Request& request, const std::vector<output::Table>& tables);
 /// Where certified references are kept: beside the build.
 std::string reference_folder();
 /// Prints why the runs of a study failed, and gives the exit code: failures count where integrators were
@@ -81,6 +86,8 @@ int converge(Context& context);
 int refine(Context& context);
 int compare(Context& context);
 int drift(Context& context);
+/// The command `static`.
+int statics(Context& context);
 int survey(Context& context);
 int bench(Context& context);
 int report(Context& context);

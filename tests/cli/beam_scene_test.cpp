@@ -49,6 +49,14 @@ TEST_CASE("cli: the beam scene that the malformed ones are made from is right", 
         whole +
             "[supports]\nend = { kind = \"rotated\", rotation = { kind = \"ramp\", to = 1, over = 2 } }\n",
         whole + load + "profile = { kind = \"ramp\", over = 1 }\n",
+        whole + load + "follower = true\nprofile = { kind = \"table\", t = [0, 1], value = [1, 2] }\n",
+        whole + "damping = 1\n[[beam.bends]]\nat = 0.5\nangle = 1\n[[loads]]\nat = 0.5\n",
+        whole + "[supports]\nstart = { kind = \"sliding\", along = \"z\", spring = 1 }\nend = { kind = "
+                "\"moved\", z = { kind = \"half-sine\", to = 1, over = 2 }, rotation = \"clamped\" }\n",
+        whole + "[supports]\nend = { kind = \"moved\", x = { kind = \"spin-up\", rate = 1, over = 2 }, "
+                "rotation = { kind = \"table\", t = [0, 1], value = [0, 1] } }\n",
+        whole + "[supports]\nstart = \"clamped\"\n[initial]\nstate = \"static\"\n" + load +
+            "force = [0, 1]\n",
         whole + "[initial]\nvelocity = [1, 2]\nangular_velocity = 3\n"}) {
     const TemporaryFolder folder;
     write_text(folder.path() / "s.toml", text);
@@ -66,8 +74,10 @@ TEST_CASE(
     std::string scene, message;
   };
   const std::string supports = whole + "[supports]\n", rotated = "start = { kind = \"rotated\", ";
-  const std::string ends =
-      "one of free, pinned, clamped, or a table { kind = \"rotated\", rotation = { .. } }";
+  const std::string ends = "one of free, pinned, clamped, or a table { kind = .., .. }";
+  const std::string bend = "[[beam.bends]]\n";
+  const std::string meeting = "a multiple of 0.5 m, where two elements meet, behind the bend before it";
+  const std::string times = "at least two ascending numbers, the first 0 (s)";
   const std::vector<Case> cases{
       {top,
        "s.toml:1: beam: found nothing, expected a table [beam] with length, elements, order and the "
@@ -80,7 +90,7 @@ TEST_CASE(
        "supports, t_end"},
       {whole + "width = 1\n",
        "s.toml:13: beam.width: found an unknown key, expected one of length, elements, order, EA, GA, EI, "
-       "rhoA, rhoI, start, angle, curvature, gravity, geometry"},
+       "rhoA, rhoI, start, angle, curvature, gravity, damping, bends, geometry"},
       {with("length", "0"), "s.toml:5: beam.length: found 0, expected a positive number (m)"},
       {without("length"), "s.toml:4: beam.length: found nothing, expected a positive number (m)"},
       {with("elements", "0"), "s.toml:6: beam.elements: found 0, expected a whole number from 1 to 1000000"},
@@ -105,6 +115,19 @@ TEST_CASE(
        "s.toml:13: beam.curvature: found 4, 2 rad an element, expected at most 1.5 rad an element"},
       {whole + "geometry = \"curved\"\n",
        "s.toml:13: beam.geometry: found \"curved\", expected one of interpolated, exact"},
+      {whole + "damping = -1\n",
+       "s.toml:13: beam.damping: found -1, expected a number that is not negative (1/s, proportional to "
+       "mass)"},
+      {whole + "bends = 3\n", "s.toml:13: beam.bends: found 3, expected tables [[beam.bends]]"},
+      {whole + bend + "angle = 1\n", "s.toml:13: beam.bends[0].at: found nothing, expected " + meeting},
+      {whole + bend + "at = 0.3\nangle = 1\n", "s.toml:14: beam.bends[0].at: found 0.3, expected " + meeting},
+      {whole + bend + "at = 0.5\nangle = 4\n",
+       "s.toml:15: beam.bends[0].angle: found 4, expected a number between -pi and pi (rad, from x towards "
+       "z)"},
+      {whole + bend + "at = 0.5\nangle = 1\n" + bend + "at = 0.5\nangle = 1\n",
+       "s.toml:17: beam.bends[1].at: found 0.5, expected " + meeting},
+      {whole + bend + "at = 0.5\nangel = 1\n",
+       "s.toml:15: beam.bends[0].angel: found an unknown key, expected angle"},
       // Supports.
       {supports + "left = \"free\"\n",
        "s.toml:14: supports.left: found an unknown key, expected one of start, end"},
@@ -112,7 +135,9 @@ TEST_CASE(
       {supports + "start = \"rotated\"\n", "s.toml:14: supports.start: found \"rotated\", expected " + ends},
       {supports + "start = 3\n", "s.toml:14: supports.start: found 3, expected " + ends},
       {supports + "start = { kind = \"turned\" }\n",
-       "s.toml:14: supports.start.kind: found \"turned\", expected one of free, pinned, clamped, rotated"},
+       "s.toml:14: supports.start.kind: found \"turned\", expected one of free, pinned, clamped, rotated, "
+       "sliding, "
+       "moved"},
       {supports + "start = { kind = \"clamped\", rotation = {} }\n",
        "s.toml:14: supports.start.rotation: found a key unknown to kind \"clamped\", expected kind"},
       {supports + "start = { kind = \"rotated\" }\n",
@@ -121,7 +146,8 @@ TEST_CASE(
       {supports + rotated + "rotation = 1.5 }\n",
        "s.toml:14: supports.start.rotation: found 1.5, expected a table"},
       {supports + rotated + "rotation = { kind = \"sine\" } }\n",
-       "s.toml:14: supports.start.rotation.kind: found \"sine\", expected ramp"},
+       "s.toml:14: supports.start.rotation.kind: found \"sine\", expected one of ramp, half-sine, spin-up, "
+       "table"},
       {supports + rotated + "rotation = { kind = \"ramp\", to = 1 } }\n",
        "s.toml:14: supports.start.rotation.over: found nothing, expected a positive number (s)"},
       {supports + rotated + "rotation = { kind = \"ramp\", to = 1, over = -1 } }\n",
@@ -132,12 +158,66 @@ TEST_CASE(
        "s.toml:14: supports.start.rotation.until: found a key unknown to kind \"ramp\", expected one of "
        "kind, "
        "to, over"},
+      {supports + rotated + "rotation = { kind = \"spin-up\", to = 1, over = 1 } }\n",
+       "s.toml:14: supports.start.rotation.to: found a key unknown to kind \"spin-up\", expected one of "
+       "kind, "
+       "rate, over"},
+      {supports + rotated + "rotation = { kind = \"spin-up\", rate = nan, over = 1 } }\n",
+       "s.toml:14: supports.start.rotation.rate: found nan, expected a finite number (about +y, rad/s)"},
+      {supports + rotated + "rotation = { kind = \"table\", t = [0, 1], value = [1, 1] } }\n",
+       "s.toml:14: supports.start.rotation.value: found [1, 1], expected as many numbers as t has, the first "
+       "0 (about +y, rad)"},
+      {supports + "start = { kind = \"sliding\" }\n",
+       "s.toml:14: supports.start.along: found nothing, expected one of x, z"},
+      {supports + "start = { kind = \"sliding\", along = \"y\" }\n",
+       "s.toml:14: supports.start.along: found \"y\", expected one of x, z"},
+      {supports + "start = { kind = \"sliding\", along = \"x\", rotation = {} }\n",
+       "s.toml:14: supports.start.rotation: found {}, expected one of free, clamped"},
+      {supports + "start = { kind = \"moved\" }\n",
+       "s.toml:14: supports.start.x: found nothing, expected x or z: a table { kind = \"ramp\", to = .., "
+       "over "
+       "= .. } (m, s)"},
+      {supports + "start = { kind = \"moved\", x = 1 }\n",
+       "s.toml:14: supports.start.x: found 1, expected a table"},
+      {supports + "start = { kind = \"moved\", y = 1 }\n",
+       "s.toml:14: supports.start.y: found a key unknown to kind \"moved\", expected one of kind, x, z, "
+       "rotation, spring"},
+      {supports + "start = { kind = \"moved\", z = { kind = \"ramp\", to = 1, over = 1 }, rotation = 1 }\n",
+       "s.toml:14: supports.start.rotation: found 1, expected one of free, clamped, or a table { kind = "
+       "\"ramp\", to = .., over = .. } (rad, s)"},
+      {supports + "start = { kind = \"pinned\", spring = 0 }\n",
+       "s.toml:14: supports.start.spring: found 0, expected a positive number (torsion spring, N m/rad)"},
+      {supports + "start = { kind = \"sliding\", along = \"x\", rotation = \"clamped\", spring = 2 }\n",
+       "s.toml:14: supports.start.spring: found 2 at an end whose rotation is held, expected a spring at an "
+       "end that turns freely"},
       // Loads.
       {whole + "[loads]\n", "s.toml:13: loads: found {}, expected tables [[loads]]"},
       {whole + "[[loads]]\n",
        "s.toml:13: loads[0].at: found nothing, expected one of start, end, distributed"},
       {whole + load + "[[loads]]\nat = \"middle\"\n",
        "s.toml:16: loads[1].at: found \"middle\", expected one of start, end, distributed"},
+      {whole + "[[loads]]\nat = 0.3\n",
+       "s.toml:14: loads[0].at: found 0.3, expected a multiple of 0.5 m, where two elements meet"},
+      {whole + "[[loads]]\nat = 1.0\n",
+       "s.toml:14: loads[0].at: found 1.0, expected a multiple of 0.5 m, where two elements meet"},
+      {whole + load + "follower = 1\n", "s.toml:15: loads[0].follower: found 1, expected true or false"},
+      {whole + "[[loads]]\nat = \"distributed\"\nfollower = true\n",
+       "s.toml:15: loads[0].follower: found true for a load that is not at an end, expected false, or at = "
+       "\"start\" or \"end\""},
+      {whole + load + "profile = { kind = \"table\", t = [0], value = [1] }\n",
+       "s.toml:15: loads[0].profile.t: found [0], expected " + times},
+      {whole + load + "profile = { kind = \"table\", t = [0, 2, 1], value = [1, 1, 1] }\n",
+       "s.toml:15: loads[0].profile.t: found [0, 2, 1], expected " + times},
+      {whole + load + "profile = { kind = \"table\", t = [1, 2], value = [1, 1] }\n",
+       "s.toml:15: loads[0].profile.t: found [1, 2], expected " + times},
+      {whole + load + "profile = { kind = \"table\", t = [0, 2], value = [1] }\n",
+       "s.toml:15: loads[0].profile.value: found [1], expected as many numbers as t has (factors of the "
+       "load)"},
+      {whole + load + "profile = { kind = \"table\", t = [0, 2], value = [1, nan] }\n",
+       "s.toml:15: loads[0].profile.value: found [1, nan], expected as many numbers as t has (factors of the "
+       "load)"},
+      {whole + load + "profile = { kind = \"table\", t = 3, value = [1] }\n",
+       "s.toml:15: loads[0].profile.t: found 3, expected " + times},
       {whole + load + "force = 3\n",
        "s.toml:15: loads[0].force: found 3, expected two finite numbers (x, z, N or N/m)"},
       {whole + load + "moment = [1]\n",
@@ -160,8 +240,12 @@ TEST_CASE(
        "s.toml:14: initial.velocity: found both state and velocity, expected only one of them (the motion at "
        "t = 0)"},
       {whole + "[initial]\nstate = 3\n",
-       "s.toml:14: initial.state: found 3, expected the path of a file written by gnomon run --json, in "
-       "quotes"},
+       "s.toml:14: initial.state: found 3, expected \"static\", or the path of a file written by gnomon "
+       "run --json, in quotes"},
+      {whole + "[initial]\nstate = \"static\"\n",
+       "s.toml:13: initial: found a beam that can move freely as a rigid body, expected supports that hold "
+       "the "
+       "beam where it is to start in equilibrium"},
       {whole + "[initial]\nstate = \"x.json\"\n",
        "s.toml:14: initial.state: found 'x.json', which cannot be read, expected " + what},
   };
@@ -271,4 +355,58 @@ TEST_CASE("cli: probes are the displacements of the ends", "[cli][planar_beam]")
   const Json rigid = json_of({"run", "asymmetric-free-top", "--integrator", "rkmk4", "--step", "0.1",
                               "--no-timing", "--no-reference"});
   CHECK(rigid["runs"][0]["probes"] == Json::object());
+}
+
+TEST_CASE("cli: gnomon static prints the path of equilibria and keeps the last one", "[cli][planar_beam]") {
+  const Json json = json_of({"static", "elastica", "--load-steps", "5"});
+  const Json& run = json["runs"][0];
+  CHECK(json["command"] == "static");
+  CHECK(run["status"] == "ok");
+  REQUIRE(run["path"].size() == 5);
+  CHECK(run["path"][0]["load_factor"] == 0.2);
+  CHECK(run["path"][4]["load_factor"] == 1.0);
+  CHECK(run["path"][4]["probes"] == run["probes"]);
+  for (const Json& point : run["path"]) CHECK(point["newton_iterations"].get<int>() >= 2);
+  CHECK(std::abs(run["probes"]["end"]["z"].get<double>() - .811609024880) <= 1e-7);
+  CHECK(json["scenes"][0]["loads"][0]["follower"] == false);
+  // The equilibrium is where a dynamic run may begin.
+  const std::string scene = whole + "[supports]\nstart = \"clamped\"\n" + load + "force = [0, 0.5]\n";
+  const TemporaryFolder folder;
+  write_text(folder.path() / "s.toml", scene);
+  REQUIRE(run_program({"static", "s.toml", "--json", "x.json", "--quiet"}, folder.path()).exit_code == 0);
+  write_text(folder.path() / "d.toml", scene + "[initial]\nstate = \"x.json\"\n");
+  const Outcome outcome = run_program(run_beam_of("d.toml", {"--json", "-"}), folder.path());
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Json first = Json::parse(content_of(folder.path() / "x.json"))["runs"][0],
+             later = Json::parse(outcome.out)["runs"][0];
+  CHECK(std::abs(first["probes"]["end"]["z"].get<double>()) >= 0.1);
+  CHECK(std::abs(first["probes"]["end"]["z"].get<double>() - later["probes"]["end"]["z"].get<double>()) <=
+        1e-10);
+  // As text.
+  const Outcome text = run_program({"static", "elastica", "--arc-length"}, folder.path());
+  CHECK(text.exit_code == 0);
+  CHECK(text.out.find("load factor") != std::string::npos);
+  CHECK(text.out.find("end phi [rad]") != std::string::npos);
+}
+
+TEST_CASE("cli: gnomon static says why there is no equilibrium", "[cli][planar_beam]") {
+  check_refused(
+      {}, {"static", "flying-beam"},
+      "static: found in scene flying-beam a beam that can move freely as a rigid body, expected one "
+      "that is held in place");
+  check_refused(
+      {}, {"static", "spin-up"},
+      "static: found in scene spin-up a beam whose support does not come to rest, expected one that "
+      "is held in place");
+  check_refused({}, {"static", "asymmetric-free-top"},
+                "static: found scene asymmetric-free-top of model rigid_body, expected a model with statics");
+  check_refused({}, {"static", "elastica", "roll-up"}, "static: found 2 scenes, expected one");
+  check_refused({}, {"static", "elastica", "--load-steps", "0"},
+                "--load-steps: found '0', expected a whole number from 1 to 1000000, in digits");
+  const TemporaryFolder folder;
+  const Outcome outcome = run_program({"static", "shallow-arch", "--json", "x.json"}, folder.path());
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.err.starts_with("gnomon: shallow-arch / static: newton_failed: "));
+  CHECK(Json::parse(content_of(folder.path() / "x.json"))["runs"][0]["status"] == "newton_failed");
 }

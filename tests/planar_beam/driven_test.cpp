@@ -10,8 +10,8 @@ using planar_beam::Motion;
 
 namespace {
 
-/// The same equations by the classical Runge-Kutta method on all unknowns: the driven one has the rate s'
-/// and, between jumps, no acceleration.
+/// The same equations by the classical Runge-Kutta method on all unknowns: the driven ones have the rate s'
+/// and the acceleration s'', to which the others answer with -M_ff^-1 M_fc s''.
 template <int p>
 planar_beam::State runge_kutta(const PlanarBeam<p>& model, double t_end, int steps) {
   const int n = model.unknowns();
@@ -24,7 +24,13 @@ planar_beam::State runge_kutta(const PlanarBeam<p>& model, double t_end, int ste
     model.internal_force(y.data(), inner.data());
     model.external_force(t, outer.data());
     outer -= inner;
+    model.add_following(t, y.data(), outer.data());
     model.accelerate(outer.data());
+    outer -= model.damping() * y.tail(n);
+    for (const auto& one : model.driven()) {
+      const double missing = one.motion.acceleration_after(t) + model.damping() * y[n + one.unknown];
+      for (int i = 0; i < model.nodes(); ++i) outer[3 * i + one.unknown % 3] += missing * one.response[i];
+    }
     rate << y.tail(n), outer;
     return rate;
   };
@@ -114,6 +120,103 @@ TEST_CASE("beam schemes: order 2 of an arm whose end is turned and stopped", "[p
       }
     }
   }
+}
+
+TEST_CASE("planar beam: prescribed motions of all kinds", "[planar_beam]") {
+  using planar_beam::MotionKind;
+  const Motion spin{6.0, 15.0, MotionKind::spin_up}, sine{0.4, 2.0, MotionKind::half_sine},
+      table{0.0, 3.0, MotionKind::table, {{0.0, 1.0, 3.0}, {0.0, 0.5, -0.5}}}, ramp{-1.0, 2.0};
+  // Published: (6/15) [t^2/2 + (15/2pi)^2 (cos(2 pi t/15) - 1)], then 6 t - 45.
+  for (double t : {0.5, 4.0, 11.0, 14.9}) {
+    const double unit = 15.0 / (2.0 * 3.141592653589793);
+    CHECK(std::abs(spin.value(t) - 6.0 / 15.0 * (0.5 * t * t + unit * unit * (std::cos(t / unit) - 1.0))) <=
+          1e-13);
+  }
+  CHECK(std::abs(spin.value(15.0) - 45.0) <= 1e-13);
+  CHECK(std::abs(spin.value(17.0) - 57.0) <= 1e-13);
+  CHECK(std::abs(spin.rate_before(15.0) - 6.0) <= 1e-14);
+  CHECK(spin.rate_after(15.0) == 6.0);
+  CHECK_FALSE(spin.ends_at_rest());
+  CHECK(std::abs(sine.value(1.0) - 0.4) <= 1e-16);
+  CHECK(sine.value(2.5) == 0.0);
+  CHECK(sine.final_value() == 0.0);
+  CHECK(table.value(2.0) == 0.0);
+  CHECK(table.value(9.0) == -0.5);
+  CHECK(table.rate_before(1.0) == 0.5);
+  CHECK(table.rate_after(1.0) == -0.5);
+  CHECK(table.rate_before(3.0) == -0.5);
+  CHECK(table.rate_after(3.0) == 0.0);
+  CHECK(table.largest_rate() == 0.5);
+  CHECK(table.snapped(1.0 + 1e-10, 1e-9) == 1.0);
+  CHECK(table.breaks() == std::vector<double>{0.0, 1.0, 3.0});
+  // Rates and accelerations are derivatives, and rates are 0 before the start.
+  for (const Motion& motion : {spin, sine, table, ramp}) {
+    CHECK(motion.value(0.0) == 0.0);
+    CHECK(motion.rate_before(0.0) == 0.0);
+    for (double t : {0.3, 0.7, 1.4, 1.9, 2.7, 16.0}) {
+      const double d = 1e-5;
+      INFO(t);
+      CHECK(std::abs((motion.value(t + d) - motion.value(t - d)) / (2 * d) - motion.rate_after(t)) <= 1e-9);
+      CHECK(motion.rate_before(t) == motion.rate_after(t));
+      CHECK(std::abs((motion.rate_after(t + d) - motion.rate_after(t - d)) / (2 * d) -
+                     motion.acceleration_after(t)) <= 1e-9);
+    }
+  }
+}
+
+namespace {
+
+/// Two steps of each scheme and their order against a reference of the same equations.
+void check_driven_order(const Data& data, int steps) {
+  const PlanarBeam<2> model(data);
+  const auto reference = runge_kutta(model, 1.0, 8000);
+  for (const char* scheme : {"beam-midpoint", "beam-energy-momentum"}) {
+    std::array<double, 4> errors[2];
+    for (int k = 0; k < 2; ++k) {
+      const RunResult result = run_beam(scheme, model, 1.0, 1.0 / (steps << k));
+      REQUIRE(result.status == Status::ok);
+      CHECK(result.flags.empty());
+      const auto state = model.restore(result.state);
+      errors[k] = model.distance(state, reference);
+      for (const auto& one : model.driven()) {
+        CHECK(std::abs(state.u[one.unknown] - one.motion.value(1.0)) <= 1e-15);
+        CHECK(std::abs(state.v[one.unknown] - one.motion.rate_before(1.0)) <= 1e-15);
+      }
+    }
+    for (int k = 0; k < 4; ++k) {
+      INFO(scheme << ", " << model.metrics[k].name << ": " << errors[0][k] << " " << errors[1][k]);
+      CHECK(errors[1][k] >= 1e-9);
+      CHECK(std::abs(std::log2(errors[0][k] / errors[1][k]) - 2.0) <= 0.15);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("beam schemes: order 2 with an end that spins up", "[planar_beam]") {
+  Data data = soft_arm(4, 0.5);
+  data.supports[0].motion = Motion{-4.0, 0.75, planar_beam::MotionKind::spin_up};
+  check_driven_order(data, 640);
+}
+
+TEST_CASE("beam schemes: order 2 with moved, sliding and sprung ends, a follower and damping",
+          "[planar_beam]") {
+  using planar_beam::MotionKind;
+  Data data = soft_beam(4);
+  data.supports[0] = {};
+  data.supports[0].displacement = {Motion{0.2, 0.5, MotionKind::half_sine},
+                                   Motion{0.0, 1.0, MotionKind::table, {{0.0, 0.25, 1.0}, {0.0, 0.1, 0.0}}}};
+  data.supports[0].spring = 0.7;
+  data.supports[1].place = true;
+  data.supports[1].slide = 0;
+  data.loads[0].follower = true;
+  data.loads[0].profile = planar_beam::Profile::table;
+  data.loads[0].table = {{0.0, 0.5, 0.75}, {1.0, -0.5, 0.4}};
+  data.loads[0].duration = 0.75;
+  data.damping = 0.8;
+  CHECK(PlanarBeam<2>(data).breaks() == std::vector<double>{0.25, 0.5, 0.75, 1.0});
+  CHECK(PlanarBeam<2>(data).invariant_info().empty());
+  check_driven_order(data, 640);
 }
 
 TEST_CASE("beam schemes: a step that misses the stop of the motion is flagged", "[planar_beam]") {

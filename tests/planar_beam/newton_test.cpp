@@ -41,9 +41,20 @@ Eigen::MatrixXd tangent(const PlanarBeam<p>& model, const State& state, double h
 }
 
 template <class S, int p>
-double tangent_error(unsigned seed) {
+double tangent_error(unsigned seed, bool loaded = false) {
   Data data = flying_beam(3, 100.0);
   data.curvature = 0.13;
+  if (loaded) {
+    data.loads.push_back(data.loads[0]);
+    for (auto& load : data.loads) {
+      load.follower = true;
+      load.force = {-900.0, 1500.0};
+    }
+    data.loads[1].at = planar_beam::Place::end;
+    data.supports[0].spring = 2e4;
+    data.supports[1].spring = 1e4;
+    data.damping = 3.0;
+  }
   const PlanarBeam<p> model(data);
   auto start = model.initial();
   start.u = random_values(model.unknowns(), 2.0, seed);
@@ -140,6 +151,15 @@ TEST_CASE("beam schemes: tangent against finite differences in large random stat
           tangent_error<BeamEnergyMomentum, 3>(seed), tangent_error<BeamEnergyMomentum, 4>(seed),
           tangent_error<BeamStanderStein, 1>(seed), tangent_error<BeamStanderStein, 2>(seed),
           tangent_error<BeamMixedMidpoint, 1>(seed), tangent_error<BeamMixedMidpoint, 2>(seed)})
+      CHECK(error <= 1e-6);
+}
+
+TEST_CASE("beam schemes: tangent with followers, springs and damping against finite differences",
+          "[planar_beam]") {
+  for (unsigned seed : {1U, 11U})
+    for (double error :
+         {tangent_error<BeamMidpoint, 1>(seed, true), tangent_error<BeamMidpoint, 3>(seed, true),
+          tangent_error<BeamEnergyMomentum, 1>(seed, true), tangent_error<BeamEnergyMomentum, 3>(seed, true)})
       CHECK(error <= 1e-6);
 }
 

@@ -62,37 +62,24 @@ double turned_strain(bool curved, double angle, planar_beam::Geometry geometry) 
   return beam.strains(rigid_turn(beam, angle).data()).cwiseAbs().maxCoeff();
 }
 
-/// Equilibrium of a clamped beam under a dead tip force, by Newton's iteration with load steps.
+/// Equilibrium of a clamped beam of length and EI 1 under a dead force or a moment at its end: displacement
+/// and rotation there.
 template <int p>
-Eigen::VectorXd elastica(int elements, double load, double stiffness_ratio) {
+Eigen::Vector3d bent_tip(int elements, double force, double moment, double EA, double GA) {
   Data data;
   data.elements = elements;
-  data.section = {stiffness_ratio, stiffness_ratio, 1.0, 1.0, 1.0};
+  data.section = {EA, GA, 1.0, 1.0, 1.0};
   data.supports[0] = {true, true, {}};
+  data.loads = {{planar_beam::Place::end, {0.0, force}, moment, planar_beam::Profile::constant, 0.0}};
   const PlanarBeam<p> beam(data);
-  const int n = beam.unknowns();
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(n), force(n);
-  const int steps = 20;
-  for (int k = 1; k <= steps; ++k) {
-    double size = 1.0;
-    for (int iteration = 0; iteration < 30 && size > 1e-13; ++iteration) {
-      beam.internal_force(u.data(), force.data());
-      Eigen::VectorXd residual = -force;
-      residual[n - 2] += load * k / steps;
-      Eigen::MatrixXd K = stiffness(beam, u);
-      for (int i : beam.held()) {
-        K.row(i).setZero();
-        K.col(i).setZero();
-        K(i, i) = 1.0;
-        residual[i] = 0.0;
-      }
-      const Eigen::VectorXd change = K.partialPivLu().solve(residual);
-      u += change;
-      size = change.norm();
-    }
-    REQUIRE(size <= 1e-9);
-  }
-  return u.tail(3);
+  const StaticPath path = follow_equilibrium(*beam.statics());
+  INFO(path.message);
+  REQUIRE(path.status == Status::ok);
+  return beam.restore(path.points.back().state).u.tail(3);
+}
+template <int p>
+Eigen::Vector3d elastica(int elements, double load, double S) {
+  return bent_tip<p>(elements, load, 0.0, S, S);
 }
 
 }  // namespace
@@ -127,20 +114,151 @@ TEST_CASE("planar beam: the elastica under a dead tip force", "[planar_beam][lon
                          Row{5, .713791523612, .387628360724, 1.215368117612},
                          Row{10, .810609024880, .554995597754, 1.430285538804}}) {
     const double S = 1e4;
-    const Eigen::VectorXd tip = elastica<4>(12, row.load, S);
+    const Eigen::Vector3d tip = elastica<4>(24, row.load, S);
     INFO("P L^2/EI = " << row.load << ": " << tip.transpose());
     // A positive rotation about +y turns z towards x, so a force along z gives a negative one.
-    CHECK(std::abs(tip[1] - row.load / S - row.deflection) <= 1e-8);
-    CHECK(std::abs(-tip[0] - row.shortening) <= 1e-8);
-    CHECK(std::abs(-tip[2] - row.angle) <= 1e-8);
+    CHECK(std::abs(tip[1] - row.load / S - row.deflection) <= 1e-9);
+    CHECK(std::abs(-tip[0] - row.shortening) <= 1e-9);
+    CHECK(std::abs(-tip[2] - row.angle) <= 1e-9);
   }
-  // Order 2 p, and no locking.
-  const auto error = [](const Eigen::VectorXd& tip) { return std::abs(-tip[2] - 1.430285538804); };
-  const double linear = std::log2(error(elastica<1>(16, 10, 1e4)) / error(elastica<1>(32, 10, 1e4)));
-  const double quadratic = std::log2(error(elastica<2>(8, 10, 1e4)) / error(elastica<2>(16, 10, 1e4)));
-  CHECK(std::abs(linear - 2.0) <= 0.1);
-  CHECK(std::abs(quadratic - 4.0) <= 0.3);
-  for (double S : {1e6, 1e8}) CHECK(error(elastica<1>(8, 10, S)) <= 2.0 * error(elastica<1>(8, 10, 1e3)));
+}
+
+TEST_CASE("planar beam: the static error is of order 2 p and does not lock", "[planar_beam]") {
+  const double angle = 1.430285538804;
+  const auto error = [&](const Eigen::Vector3d& tip) { return std::abs(-tip[2] - angle); };
+  const auto order = [&](double coarse, double fine) { return std::log2(coarse / fine); };
+  CHECK(std::abs(order(error(elastica<1>(16, 10, 1e4)), error(elastica<1>(32, 10, 1e4))) - 2.0) <= 0.1);
+  CHECK(std::abs(order(error(elastica<2>(8, 10, 1e4)), error(elastica<2>(16, 10, 1e4))) - 4.0) <= 0.3);
+  CHECK(std::abs(order(error(elastica<3>(4, 10, 1e4)), error(elastica<3>(8, 10, 1e4))) - 6.0) <= 0.6);
+  CHECK(std::abs(order(error(elastica<4>(3, 10, 1e4)), error(elastica<4>(6, 10, 1e4))) - 8.0) <= 1.0);
+  // The same error at all ratios EA L^2/EI.
+  const double coarse[4] = {error(elastica<1>(8, 10, 1e2)), error(elastica<2>(4, 10, 1e2)),
+                            error(elastica<3>(3, 10, 1e2)), error(elastica<4>(2, 10, 1e2))};
+  for (double S : {1e4, 1e6, 1e8}) {
+    const double found[4] = {error(elastica<1>(8, 10, S)), error(elastica<2>(4, 10, S)),
+                             error(elastica<3>(3, 10, S)), error(elastica<4>(2, 10, S))};
+    for (int k = 0; k < 4; ++k) {
+      INFO("order " << k + 1 << ", S = " << S << ": " << found[k] << " and " << coarse[k]);
+      CHECK(found[k] <= 3.0 * coarse[k]);
+      CHECK(found[k] >= 0.01 * coarse[k]);
+    }
+  }
+}
+
+TEST_CASE("planar beam: a moment rolls it up to a half circle", "[planar_beam]") {
+  const double pi = 3.141592653589793;
+  // A circle exactly: the tip is at (0, -2/pi), turned by pi, whatever EA and GA.
+  const auto error = [&](const Eigen::Vector3d& tip) { return std::hypot(tip[0] + 1.0, tip[1] + 2.0 / pi); };
+  const Eigen::Vector3d fine = bent_tip<3>(12, 0.0, pi, 1e4, 1e3);
+  INFO(fine.transpose());
+  CHECK(error(fine) <= 1e-9);
+  CHECK(std::abs(fine[2] - pi) <= 1e-11);
+  const double linear = error(bent_tip<1>(8, 0.0, pi, 1e4, 1e3)),
+               linear_fine = error(bent_tip<1>(16, 0.0, pi, 1e4, 1e3));
+  CHECK(std::abs(std::log2(linear / linear_fine) - 2.0) <= 0.1);
+  const double quadratic = error(bent_tip<2>(4, 0.0, pi, 1e4, 1e3)),
+               quadratic_fine = error(bent_tip<2>(8, 0.0, pi, 1e4, 1e3));
+  CHECK(std::abs(std::log2(quadratic / quadratic_fine) - 4.0) <= 0.3);
+}
+
+TEST_CASE("planar beam: equilibrium by arc length is that by load steps", "[planar_beam]") {
+  Data data = soft_beam(4);
+  data.curvature = 0.7;
+  const PlanarBeam<2> beam(data);
+  StaticsOptions options;
+  const StaticPath by_load = follow_equilibrium(*beam.statics(), options);
+  options.arc_length = true;
+  const StaticPath by_length = follow_equilibrium(*beam.statics(), options);
+  REQUIRE(by_load.status == Status::ok);
+  REQUIRE(by_length.status == Status::ok);
+  CHECK(by_load.points.size() == 10);
+  const Eigen::VectorXd u = beam.restore(by_load.points.back().state).u,
+                        other = beam.restore(by_length.points.back().state).u;
+  CHECK((u - other).norm() <= 1e-12 * u.norm());
+  CHECK(by_length.points.back().factor == 1.0);
+  // It is one: no force is left on free unknowns.
+  Eigen::VectorXd inner(beam.unknowns()), outer(beam.unknowns());
+  beam.internal_force(u.data(), inner.data());
+  beam.external_force(0.0, outer.data());
+  for (int i : beam.free()) CHECK(std::abs(inner[i] - outer[i]) <= 1e-13);
+  CHECK(outer.norm() >= 0.1);
+}
+
+TEST_CASE("planar beam: statics with springs, followers, slides and moved ends", "[planar_beam]") {
+  using planar_beam::Motion;
+  // A rigid bar on a pin with a spring: k phi = moment of the force.
+  Data bar;
+  bar.elements = 2;
+  bar.section = {1e7, 1e7, 1e7, 1.0, 1.0};
+  bar.supports[0].place = true;
+  bar.supports[0].spring = 2.0;
+  bar.loads = {{planar_beam::Place::end, {0.0, -3.0}, 0.0, planar_beam::Profile::constant, 0.0}};
+  const auto turn = [](const Data& data) {
+    const PlanarBeam<1> beam(data);
+    const StaticPath path = follow_equilibrium(*beam.statics());
+    REQUIRE(path.status == Status::ok);
+    return beam.restore(path.points.back().state).u[2];
+  };
+  const double dead = turn(bar);
+  CHECK(std::abs(2.0 * dead - 3.0 * std::cos(dead)) <= 1e-5);
+  bar.loads[0].follower = true;
+  CHECK(std::abs(turn(bar) - 1.5) <= 1e-5);
+  // A moved end against a clamped one: stretched and sheared.
+  Data moved;
+  moved.elements = 1;
+  moved.section = {10.0, 5.0, 1.0, 1.0, 1.0};
+  moved.supports[0] = {true, true, {}};
+  moved.supports[1].displacement[0] = Motion{0.1, 1.0};
+  const PlanarBeam<2> beam(moved);
+  const StaticPath path = follow_equilibrium(*beam.statics());
+  REQUIRE(path.status == Status::ok);
+  const auto state = beam.restore(path.points.back().state);
+  CHECK(std::abs(state.u[beam.unknowns() - 3] - 0.1) <= 1e-15);
+  for (int k = 0; k < beam.point_count(); ++k) CHECK(std::abs(state.strain[3 * k] - 0.1) <= 1e-13);
+  // What is not held has no equilibrium to look for.
+  Data loose = soft_beam(2);
+  loose.supports[0].rotation = false;
+  CHECK_FALSE(PlanarBeam<1>(loose).statics()->refusal().empty());
+  loose.supports[0].spring = 1.0;
+  CHECK(PlanarBeam<1>(loose).statics()->refusal().empty());
+  loose.supports[0] = {};
+  loose.supports[0].place = loose.supports[1].place = true;
+  CHECK(PlanarBeam<1>(loose).statics()->refusal().empty());
+  loose.supports[0].slide = loose.supports[1].slide = 0;
+  CHECK_FALSE(PlanarBeam<1>(loose).statics()->refusal().empty());
+}
+
+TEST_CASE("planar beam: a follower's flutter load", "[planar_beam]") {
+  // M. Beck, Z. angew. Math. Phys. 3 (1952) 225-228: a cantilever pushed by a force that follows its tip
+  // flutters from P L^2/EI = 20.0509 on; a dead one buckles at pi^2/4.
+  const auto modes = [](double push, bool follower) {
+    Data data;
+    data.elements = 8;
+    data.section = {1e7, 1e7, 1.0, 1.0, 1e-7};
+    data.supports[0] = {true, true, {}};
+    data.loads = {{planar_beam::Place::end, {-push, 0.0}, 0.0, planar_beam::Profile::constant, 0.0}};
+    data.loads[0].follower = follower;
+    const PlanarBeam<3> beam(data);
+    const StaticPath path = follow_equilibrium(*beam.statics());
+    REQUIRE(path.status == Status::ok);
+    const auto ode = beam.ode();
+    const int n = ode.size() / 2;
+    std::vector<double> y(2 * n), J(4 * n * n);
+    ode.pack(0.0, beam.restore(path.points.back().state), y.data());
+    ode.jacobian(0.0, y.data(), J.data());
+    const Eigen::MatrixXd A = -Eigen::Map<Eigen::MatrixXd>(J.data(), 2 * n, 2 * n).bottomLeftCorner(n, n);
+    const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+    // The smallest square of a frequency, and the largest imaginary part among those of bending.
+    double least = values.real().minCoeff(), imaginary = 0.0;
+    for (const auto& value : values)
+      if (std::abs(value) < 1e3) imaginary = std::max(imaginary, std::abs(value.imag()));
+    return std::pair{least, imaginary};
+  };
+  CHECK(modes(20.04, true).second <= 1e-3);
+  CHECK(modes(20.04, true).first > 1.0);
+  CHECK(modes(20.06, true).second >= 1.0);
+  CHECK(modes(2.46, false).first > 0.0);
+  CHECK(modes(2.48, false).first < 0.0);
 }
 
 TEST_CASE("planar beam: Timoshenko's lowest frequency of a clamped beam", "[planar_beam]") {

@@ -1,0 +1,138 @@
+// Paths of equilibria with limit points, and the scenes made for statics.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/planar_beam/beams.hpp"
+
+using namespace gnomon;
+using namespace gnomon::test;
+
+namespace {
+
+StaticPath path_of(const Scene& scene, bool arc_length, int load_steps = 10) {
+  StaticsOptions options;
+  options.arc_length = arc_length;
+  options.load_steps = load_steps;
+  return follow_equilibrium(*scene.model->statics(), options);
+}
+
+/// The first maximum of the load factor along a path, by a parabola through the points round it.
+double limit_of(const StaticPath& path) {
+  for (std::size_t k = 1; k + 1 < path.points.size(); ++k) {
+    const double a = path.points[k - 1].factor, b = path.points[k].factor, c = path.points[k + 1].factor;
+    if (b > a && b >= c) return b;
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+TEST_CASE("planar beam: a shallow arch snaps through, load control stops at the limit point",
+          "[planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene scene = load_scene(catalogue, "shallow-arch");
+  const StaticPath by_load = path_of(scene, false);
+  CHECK(by_load.status == Status::newton_failed);
+  CHECK(by_load.message.find("--arc-length") != std::string::npos);
+  const StaticPath by_length = path_of(scene, true, 40);
+  INFO(by_length.message);
+  REQUIRE(by_length.status == Status::ok);
+  const double limit = limit_of(by_length);
+  REQUIRE(limit < 1.0);
+  // Load control comes to the limit point and not beyond.
+  REQUIRE_FALSE(by_load.points.empty());
+  INFO(by_load.points.back().factor << " of " << limit);
+  CHECK(std::abs(by_load.points.back().factor - limit) <= 0.02 * limit);
+  // Behind it the load falls and rises again, on the other side of the pins.
+  const auto lowest = std::min_element(by_length.points.begin(), by_length.points.end(),
+                                       [](const auto& a, const auto& b) { return a.factor < b.factor; });
+  CHECK(lowest->factor < 0.5 * limit);
+  CHECK(by_length.points.back().factor == 1.0);
+  const double crown = scene.model->probes(by_length.points.back().state)[1].components[1].second;
+  CHECK(crown < -1.0);
+}
+
+TEST_CASE("planar beam: Lee's frame snaps through and back", "[planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene scene = load_scene(catalogue, "lee-frame");
+  CHECK(path_of(scene, false).status == Status::newton_failed);
+  const StaticPath path = path_of(scene, true, 20);
+  INFO(path.message << " " << path.points.size());
+  REQUIRE(path.status == Status::ok);
+  WARN(limit_of(path));
+}
+
+TEST_CASE("planar beam: the scenes made for statics give the published numbers", "[planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene elastica = load_scene(catalogue, "elastica"), roll = load_scene(catalogue, "roll-up");
+  struct Row {
+    double factor, deflection, shortening, angle;
+  };
+  const StaticPath path = path_of(elastica, false);
+  REQUIRE(path.status == Status::ok);
+  for (const Row& row : {Row{.1, .301720773800, .056433236283, .461351949712},
+                         Row{.2, .493457480397, .160641720825, .781749831557},
+                         Row{.5, .713791523612, .387628360724, 1.215368117612},
+                         Row{1., .810609024880, .554995597754, 1.430285538804}}) {
+    const auto point = std::find_if(path.points.begin(), path.points.end(), [&](const Equilibrium& one) {
+      return std::abs(one.factor - row.factor) <= 1e-12;
+    });
+    REQUIRE(point != path.points.end());
+    const auto tip = elastica.model->probes(point->state)[1].components;
+    INFO(row.factor << ": " << tip[0].second << " " << tip[1].second << " " << tip[2].second);
+    CHECK(std::abs(tip[0].second + row.shortening) <= 1e-7);
+    CHECK(std::abs(tip[1].second - row.factor * 10.0 / 1e4 - row.deflection) <= 1e-7);
+    CHECK(std::abs(tip[2].second + row.angle) <= 1e-7);
+  }
+  const StaticPath half_circle = path_of(roll, false);
+  REQUIRE(half_circle.status == Status::ok);
+  const auto tip = roll.model->probes(half_circle.points.back().state)[1].components;
+  CHECK(std::abs(tip[0].second + 1.0) <= 1e-4);
+  CHECK(std::abs(tip[1].second + 2.0 / 3.141592653589793) <= 1e-4);
+  CHECK(std::abs(tip[2].second - 3.141592653589793) <= 1e-9);
+}
+
+TEST_CASE("planar beam: a scene may start in equilibrium, and vibrates when let go", "[planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene scene = load_scene(catalogue, "released-cantilever");
+  const auto& model = typed<PlanarBeam<3>>(scene);
+  const double deflection = model.initial().u[model.unknowns() - 2];
+  // P L^3/3 EI + P L/GA
+  CHECK(std::abs(deflection - (0.01 * 1e3 / 1500.0 + 0.1 / 1e4)) <= 1e-6);
+  const RunResult rest = run_beam("beam-energy-momentum", model, 1.0, 0.05);
+  CHECK((model.restore(rest.state).u - model.initial().u).norm() <= 1e-10);
+  // The tip's motion a period of the lowest mode later, at a small step: 2 pi/0.646852 = 9.713482 s.
+  const double period = 2.0 * 3.141592653589793 / 0.646852;
+  const auto tip_at = [&](double t) {
+    RunSpec spec;
+    spec.t_end = t;
+    spec.tol = 1e-9;
+    const auto state = model.restore(run_scheme(catalogue, "cvode-bdf", *scene.model, spec).state);
+    return state.v[model.unknowns() - 2];
+  };
+  // The velocity of the lowest mode passes zero upwards after each period.
+  CHECK(std::abs(tip_at(1.0 + period)) <= 0.05 * std::abs(tip_at(1.0 + 0.75 * period)));
+}
+
+TEST_CASE("planar beam: the spin-up arm ends stretched by its own inertia", "[planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const Scene scene = load_scene(catalogue, "spin-up");
+  const auto& model = typed<PlanarBeam<2>>(scene);
+  CHECK(scene.model->invariant_info().empty());
+  CHECK(model.prescribed(2)->kind == planar_beam::MotionKind::spin_up);
+  const RunResult result = run_beam("beam-energy-momentum", model, 20.0, 0.005, 2000);
+  INFO(result.message);
+  REQUIRE(result.status == Status::ok);
+  // The mean of the tip's distance over the last four seconds.
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t k = 0; k < result.samples.size(); ++k) {
+    if (result.sample_times[k] < 16.0) continue;
+    const auto state = model.restore(result.samples[k]);
+    sum += std::hypot(10.0 + state.u[model.unknowns() - 3], state.u[model.unknowns() - 2]) - 10.0;
+    ++count;
+  }
+  const double extension = sum / count;
+  INFO(extension);
+  CHECK(std::abs(extension - 5.14317e-4) <= 2e-6);
+}
