@@ -90,7 +90,7 @@ struct BeamMixedMidpoint : MidpointStep<Turning::mixed> {
           "geometrically exact beams in a port-Hamiltonian framework, Multibody Syst. Dyn. (2025), "
           "doi 10.1007/s11044-025-10087-9: midpoint rule, strains as state",
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,

@@ -61,7 +61,7 @@ struct BeamStanderStein : MidpointStep<Turning::stander_stein> {
           "E. Stander, E. Stein, Engineering Computations 13 (1996) 60-85, strain factors cos and sinc "
           "of half the rotation in a step",
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_energy = true,
   };

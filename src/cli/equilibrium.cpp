@@ -27,24 +27,32 @@ StaticsOptions statics_options(const Context& context) {
 
 std::string unit_of(const std::string& component) { return component == "phi" ? "rad" : "m"; }
 
-/// Load factor, probes and corrections of every point.
+/// Load factor, probes and corrections of every point; what is 0 at all of them is not shown.
 output::Table path_table(const Scene& scene, const StaticPath& path) {
   output::Table table;
   table.caption = fmt::format("{}: equilibria", scene.name);
   table.columns = {{"load_factor", "load factor"}};
-  for (const Equilibrium& point : path.points) {
-    std::vector<output::Cell> cells{output::number_cell(point.factor, 9)};
-    for (const Probe& probe : scene.model->probes(point.state))
-      for (const auto& [component, value] : probe.components) {
-        if (table.rows.empty())
-          table.columns.push_back({fmt::format("{}_{}", probe.name, component),
-                                   fmt::format("{} {} [{}]", probe.name, component, unit_of(component))});
-        cells.push_back(output::number_cell(value, 12));
+  for (const Equilibrium& point : path.points) table.rows.push_back({output::number_cell(point.factor, 9)});
+  for (std::size_t p = 0; !path.points.empty() && p < scene.model->probes(path.points[0].state).size(); ++p)
+    for (std::size_t c = 0; c < scene.model->probes(path.points[0].state)[p].components.size(); ++c) {
+      std::vector<output::Cell> cells;
+      bool moves = false;
+      std::string name, component;
+      for (const Equilibrium& point : path.points) {
+        const Probe probe = scene.model->probes(point.state)[p];
+        name = probe.name;
+        component = probe.components[c].first;
+        moves = moves || probe.components[c].second != 0.0;
+        cells.push_back(output::number_cell(probe.components[c].second, 12));
       }
-    cells.push_back(output::count_cell(point.iterations));
-    table.rows.push_back(std::move(cells));
-  }
+      if (!moves) continue;
+      table.columns.push_back({fmt::format("{}_{}", name, component),
+                               fmt::format("{} {} [{}]", name, component, unit_of(component))});
+      for (std::size_t k = 0; k < cells.size(); ++k) table.rows[k].push_back(cells[k]);
+    }
   table.columns.push_back({"newton_iterations", "Newton iterations"});
+  for (std::size_t k = 0; k < path.points.size(); ++k)
+    table.rows[k].push_back(output::count_cell(path.points[k].iterations));
   return table;
 }
 

@@ -26,7 +26,8 @@ TEST_CASE("planar beam: every shipped scene runs with both midpoint schemes", "[
   }
   for (const char* name :
        {"flying-beam", "flying-spaghetti", "free-flight", "cantilever-two-big-steps", "robot-arm",
-        "slender-pendulum", "curved-cantilever", "curved-free", "axial-wave", "spinning-rod", "soft-beam"})
+        "slender-pendulum", "curved-cantilever", "curved-free", "axial-wave", "spinning-rod", "soft-beam",
+        "spin-up", "released-cantilever", "elastica", "roll-up", "shallow-arch", "lee-frame"})
     CHECK(std::count(names.begin(), names.end(), name) == 1);
 }
 

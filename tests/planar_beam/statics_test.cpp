@@ -234,7 +234,7 @@ TEST_CASE("planar beam: a follower's flutter load", "[planar_beam]") {
   const auto modes = [](double push, bool follower) {
     Data data;
     data.elements = 8;
-    data.section = {1e7, 1e7, 1.0, 1.0, 1e-7};
+    data.section = {1e6, 1e6, 1.0, 1.0, 1e-5};
     data.supports[0] = {true, true, {}};
     data.loads = {{planar_beam::Place::end, {-push, 0.0}, 0.0, planar_beam::Profile::constant, 0.0}};
     data.loads[0].follower = follower;
@@ -254,9 +254,9 @@ TEST_CASE("planar beam: a follower's flutter load", "[planar_beam]") {
       if (std::abs(value) < 1e3) imaginary = std::max(imaginary, std::abs(value.imag()));
     return std::pair{least, imaginary};
   };
-  CHECK(modes(20.04, true).second <= 1e-3);
-  CHECK(modes(20.04, true).first > 1.0);
-  CHECK(modes(20.06, true).second >= 1.0);
+  CHECK(modes(20.0, true).second <= 1e-3);
+  CHECK(modes(20.0, true).first > 1.0);
+  CHECK(modes(20.1, true).second >= 1.0);
   CHECK(modes(2.46, false).first > 0.0);
   CHECK(modes(2.48, false).first < 0.0);
 }

@@ -108,6 +108,20 @@ TEST_CASE("sundials: the solvers agree on supported beams", "[sundials][planar_b
   check_agreement(load_scene(catalogue, "slender-pendulum", {0.02, {}}), false);
 }
 
+TEST_CASE("sundials: the solvers agree on moved and sprung ends, a follower and damping",
+          "[sundials][planar_beam]") {
+  const Catalogue catalogue = full_catalogue();
+  const SceneChanges changes{
+      {},
+      {"supports={start = {kind = \"moved\", x = {kind = \"half-sine\", to = 0.2, over = 0.5}, z = {kind = "
+       "\"spin-up\", rate = 0.5, over = 1.5}, spring = 0.7}, end = {kind = \"sliding\", along = \"x\"}}",
+       "beam.damping=0.8",
+       "loads=[{at = \"end\", force = [0.3, 0.8], follower = true, profile = {kind = \"table\", t = [0, 1, "
+       "1.2], "
+       "value = [1, -0.5, 0.4]}}]"}};
+  check_agreement(load_scene(catalogue, "soft-beam", changes), true);
+}
+
 TEST_CASE("sundials: samples at a jump are the limits from the left", "[sundials][planar_beam]") {
   const Catalogue catalogue = full_catalogue();
   const Scene scene = load_scene(catalogue, "robot-arm", {6.0, {}});
