@@ -1,4 +1,7 @@
 #pragma once
+#include <type_traits>
+
+#include "integrators/beam/linear/stepper.hpp"
 #include "integrators/beam/stepper.hpp"
 #include "src/scheme.hpp"
 
@@ -7,8 +10,11 @@ namespace gnomon::beam {
 /// The implicit midpoint rule for the geometrically exact beam with the mean velocity of the step as unknown.
 template <Turning turning>
 struct MidpointStep {
+  static constexpr Turning kind = turning;
   template <BeamForm M>
-  using State = Stepper<M, turning>;
+  using State =
+      std::conditional_t<M::order == 1 && (turning == Turning::documented || turning == Turning::cayley),
+                         linear::FastStepper<M, turning>, Stepper<M, turning>>;
 
   /// `options.newton_tol`: residual relative to the largest of inertia, internal and external force.
   template <BeamForm M>
@@ -25,11 +31,7 @@ struct MidpointStep {
   }
   template <BeamForm M>
   static Cost cost(const M&, const State<M>& state, long steps) {
-    return {.steps = steps,
-            .rhs = state.evaluations,
-            .jacobians = state.factorizations,
-            .factorizations = state.factorizations,
-            .newton_iterations = state.iterations};
+    return state.cost(steps);
   }
 };
 

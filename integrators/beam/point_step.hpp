@@ -30,8 +30,9 @@ inline CosSin cos_sin(double z) {
   if (std::abs(z) > 0.125) return {std::cos(z), std::sin(z)};
   const double x = z * z;
   const double c =
-      1.0 - x / 2 * (1.0 - x / 12 * (1.0 - x / 30 * (1.0 - x / 56 * (1.0 - x / 90 * (1.0 - x / 132)))));
-  const double s = z * (1.0 - x / 6 * (1.0 - x / 20 * (1.0 - x / 42 * (1.0 - x / 72 * (1.0 - x / 110)))));
+      1.0 - x * (1.0 / 2 - x * (1.0 / 24 - x * (1.0 / 720 - x * (1.0 / 40320 - x * (1.0 / 3628800)))));
+  const double s =
+      z - z * x * (1.0 / 6 - x * (1.0 / 120 - x * (1.0 / 5040 - x * (1.0 / 362880 - x * (1.0 / 39916800)))));
   return {c, s};
 }
 

@@ -38,6 +38,12 @@ concept BeamForm = requires(const M& model, double t, double* out) {
 template <BeamForm M, Turning turning>
 class Stepper {
  public:
+  /// An unknown whose motion is prescribed.
+  struct Driven {
+    int unknown;
+    planar_beam::Motion motion;
+  };
+
   static constexpr int p = M::order;
   using Vector = Eigen::VectorXd;
   using Point = PointStep<turning>;
@@ -54,7 +60,7 @@ class Stepper {
     const int n = model.unknowns();
     for (Vector* vector : {&external_, &internal_, &inertia_, &residual_, &correction_, &trial_})
       vector->setZero(n);
-    for (Vector& past : past_) past.setZero(n);
+    for (Vector& one : past) one.setZero(n);
     for (int e = 0; e < model.elements(); ++e)
       for (int g = 0; g < p; ++g) {
         const planar_beam::PointStrain at = model.strain_at(u.data(), e, g);
@@ -68,9 +74,13 @@ class Stepper {
     const planar_beam::CrossSection& C = model.section();
     force_floor_ = 4.0 * std::numeric_limits<double>::epsilon() * std::max(C.EA, C.GA) *
                    std::sqrt(static_cast<double>(model.nodes()));
+    const double density = std::max(C.rhoA, C.rhoI / length_);
+    mass_floor_ = 4.0 * std::numeric_limits<double>::epsilon() * density * model.element().length;
   }
 
-  typename M::State view(const M& model) const {
+  typename M::State view(const M& model) const { return state_of(model, u, v, history); }
+  static typename M::State state_of(const M& model, const Vector& u, const Vector& v,
+                                    const std::vector<PointHistory>& history) {
     typename M::State state{u, v, Vector(3 * model.point_count())};
     for (int k = 0; k < model.point_count(); ++k) {
       const PointHistory& at = history[k];
@@ -79,20 +89,19 @@ class Stepper {
     }
     return state;
   }
+  Cost cost(long steps) const {
+    return {.steps = steps,
+            .rhs = evaluations,
+            .jacobians = factorizations,
+            .factorizations = factorizations,
+            .newton_iterations = iterations};
+  }
 
   // A step is long enough to be called; inlined into the loops of all orders it takes minutes to compile.
   [[gnu::noinline]] Status step(const M& model, double t, double h) {
-    load(model, t + 0.5 * h);
-    time_ = t;
-    if (!driven_.empty()) {
-      for (const Driven& end : driven_) time_ = end.motion.snapped(time_, nearby * h);
-      model.jump(time_, v.data());
-    }
-    // Roundoff of the inertia term, 2/h M vbar.
-    const planar_beam::CrossSection& C = model.section();
-    const double density = std::max(C.rhoA, C.rhoI / model.data().length);
-    inertia_floor_ = 4.0 * std::numeric_limits<double>::epsilon() * density * model.element().length *
-                     std::abs(2.0 / h) * v.norm();
+    aim(model, t, h);
+    if (!driven_.empty()) model.jump(time_, v.data());
+    inertia_floor_ = mass_floor_ * std::abs(2.0 / h) * v.norm();
     extrapolate(h);
     if (!solve(model, h)) {
       mean = v;
@@ -100,6 +109,40 @@ class Stepper {
     }
     finish(h);
     return Status::ok;
+  }
+
+  /// The first part of a step: loads at its middle and, exactly, the time at which it begins.
+  void aim(const M& model, double t, double h) {
+    load(model, t + 0.5 * h);
+    time_ = t;
+    for (const Driven& end : driven_) time_ = end.motion.snapped(time_, nearby * h);
+  }
+  /// Whether a prescribed rate jumps at the beginning of the step that `aim` has been told.
+  bool jumps() const {
+    for (const Driven& end : driven_)
+      if (end.motion.rate_after(time_) != end.motion.rate_before(time_)) return true;
+    return false;
+  }
+  /// Sets the mean velocities of driven ends, so that they are at the end of the step where they are
+  /// prescribed to be, and the velocity that the inertia term sees before the step, so that the acceleration
+  /// is (s'(t_{n+1}-) - s'(t_n+))/h.
+  void drive(double h) {
+    for (const Driven& end : driven_) {
+      const double t = end.motion.snapped(time_ + h, nearby * h);
+      const double turn = end.motion.value(t) - end.motion.value(time_);
+      const bool bent = turning == Turning::cayley && end.unknown % 3 == 2;
+      const double rate = bent ? 2.0 / h * std::tan(0.5 * turn) : turn / h;
+      mean[end.unknown] = rate;
+      v[end.unknown] = rate - 0.5 * (end.motion.rate_before(t) - end.motion.rate_after(time_));
+    }
+  }
+  /// Sets the displacements and velocities of driven ends at the end of the step.
+  void settle(double h) {
+    for (const Driven& end : driven_) {
+      const double t = end.motion.snapped(time_ + h, nearby * h);
+      u[end.unknown] = end.motion.value(t);
+      v[end.unknown] = end.motion.rate_before(t);
+    }
   }
 
   /// Residual of the weak form at the present `mean`, from the state at t_n, for a step of size h; the
@@ -193,21 +236,22 @@ class Stepper {
       u[i + 2] += turning == Turning::cayley ? 2.0 * std::atan(0.5 * h * mean[i + 2]) : h * mean[i + 2];
     }
     v = 2.0 * mean - v;
-    for (const Driven& end : driven_) {
-      const double t = end.motion.snapped(time_ + h, nearby * h);
-      u[end.unknown] = end.motion.value(t);
-      v[end.unknown] = end.motion.rate_before(t);
-    }
+    settle(h);
     for (std::size_t k = 0; k < points_.size(); ++k) history[k] = points_[k].end();
-    past_[2].swap(past_[1]);
-    past_[1].swap(past_[0]);
-    past_[0] = mean;
-    known_ = h == past_step_ ? std::min(known_ + 1, 3) : 1;
-    past_step_ = h;
+    past[2].swap(past[1]);
+    past[1].swap(past[0]);
+    past[0] = mean;
+    known = h == past_step ? std::min(known + 1, 3) : 1;
+    past_step = h;
   }
 
   const Vector& residual() const { return residual_; }
+  const Vector& external() const { return external_; }
   double tolerance() const { return tolerance_; }
+  const std::vector<Driven>& driven() const { return driven_; }
+  /// Roundoff of the residual: of the forces, and of the inertia over |2/h| |v|.
+  double force_floor() const { return force_floor_; }
+  double mass_floor() const { return mass_floor_; }
   /// Sets the external force to that at time t, the middle of a step.
   void load(const M& model, double t) {
     model.external_force(t, external_.data());
@@ -217,13 +261,12 @@ class Stepper {
   Vector u, v;
   Vector mean;  ///< vbar = (v_{n+1} + v_n)/2, the unknown
   std::vector<PointHistory> history;
+  Vector past[3];          ///< mean velocities of the last steps, the last one first
+  int known = 0;           ///< how many of them are known
+  double past_step = 0.0;  ///< the size of those steps, s
   long evaluations = 0, factorizations = 0, iterations = 0;
 
  private:
-  struct Driven {
-    int unknown;
-    planar_beam::Motion motion;
-  };
   static constexpr double nearby = 1e-6;  ///< steps; times that are nearer to a break are meant to be there
 
   /// The section of an end in the middle of a step with mean angular velocity `omega`: its rotation, the
@@ -260,19 +303,6 @@ class Stepper {
     }
   }
 
-  /// Sets the mean velocities of driven ends, so that they are at the end of the step where they are
-  /// prescribed to be, and the velocity that the inertia term sees before the step, so that the acceleration
-  /// is (s'(t_{n+1}-) - s'(t_n+))/h.
-  void drive(double h) {
-    for (const Driven& end : driven_) {
-      const double t = end.motion.snapped(time_ + h, nearby * h);
-      const double turn = end.motion.value(t) - end.motion.value(time_);
-      const bool bent = turning == Turning::cayley && end.unknown % 3 == 2;
-      const double rate = bent ? 2.0 / h * std::tan(0.5 * turn) : turn / h;
-      mean[end.unknown] = rate;
-      v[end.unknown] = rate - 0.5 * (end.motion.rate_before(t) - end.motion.rate_after(time_));
-    }
-  }
   /// Sets the residual and the scale by which it is measured, the largest norm of its three parts; returns
   /// its norm.
   double take_residual() {
@@ -298,19 +328,19 @@ class Stepper {
   /// A start for Newton's iteration from the mean velocities of the last steps, which unlike v carry no
   /// oscillation of period 2 h.
   void extrapolate(double h) {
-    const int known = h == past_step_ ? known_ : 0;
-    if (known == 3)
-      mean = 3.0 * (past_[0] - past_[1]) + past_[2];
-    else if (known == 2)
-      mean = 2.0 * past_[0] - past_[1];
+    const int usable = h == past_step ? known : 0;
+    if (usable == 3)
+      mean = 3.0 * (past[0] - past[1]) + past[2];
+    else if (usable == 2)
+      mean = 2.0 * past[0] - past[1];
     else
       mean = v;
     // Where v_n has been the better start lately, the other is tried only now and then.
-    if (known >= 2 && plain_ > 0) {
+    if (usable >= 2 && plain_ > 0) {
       --plain_;
       mean = v;
     }
-    extrapolated_ = known >= 2 && plain_ == 0;
+    extrapolated_ = usable >= 2 && plain_ == 0;
   }
 
   /// Newton's iteration with line search. The tangent is kept while it reduces the residual by a hundred, in
@@ -380,8 +410,8 @@ class Stepper {
   /// state advances by h at once or not at all.
   bool continue_in_step(const M& model, double h) {
     mean = v;
-    Vector& good = past_[2];  // overwritten after the step anyway
-    known_ = std::min(known_, 2);
+    Vector& good = past[2];  // overwritten after the step anyway
+    known = std::min(known, 2);
     double done = 0.0, part = 0.25;
     for (int tries = 0; tries < 60 && done < 1.0; ++tries) {
       good = mean;
@@ -402,13 +432,11 @@ class Stepper {
   std::vector<Point> points_;
   std::vector<Driven> driven_;
   Vector external_, internal_, inertia_, residual_, correction_, trial_;
-  Vector past_[3];
-  int known_ = 0;
-  double past_step_ = 0.0, time_ = 0.0, middle_ = 0.0;
+  double time_ = 0.0, middle_ = 0.0;
   bool extrapolated_ = false;
   int plain_ = 0;  ///< steps for which Newton starts from v_n
   double tolerance_, kept_while_, scale_ = 0.0, length_ = 1.0;
-  double force_floor_ = 0.0, inertia_floor_ = 0.0;
+  double force_floor_ = 0.0, mass_floor_ = 0.0, inertia_floor_ = 0.0;
 };
 
 }  // namespace gnomon::beam

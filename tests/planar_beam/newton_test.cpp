@@ -59,7 +59,7 @@ double tangent_error(unsigned seed, bool loaded = false) {
   auto start = model.initial();
   start.u = random_values(model.unknowns(), 2.0, seed);
   start.v = random_values(model.unknowns(), 5.0, seed + 1);
-  auto state = S::start(model, start);
+  beam::Stepper<PlanarBeam<p>, S::kind> state(model, start, SchemeOptions{});
   state.mean = random_values(model.unknowns(), 5.0, seed + 2);
   state.load(model, 0.1);
   const double h = 0.3;

@@ -1,0 +1,15 @@
+#include "integrators/beam/linear/kernels.hpp"
+
+namespace gnomon::beam::linear {
+
+const Kernels* kernels(InstructionSet set) {
+  return compiled_for<Kernels>(set, baseline_kernels, avx2_kernels, avx512_kernels);
+}
+
+const Kernels* fitting_kernels(int elements) {
+  for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2})
+    if (const Kernels* found = kernels(set); found && elements >= found->lanes) return found;
+  return elements >= 2 ? &paired_kernels() : nullptr;
+}
+
+}  // namespace gnomon::beam::linear
