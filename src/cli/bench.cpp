@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -166,6 +167,7 @@ class Study {
                    const std::vector<StudyOptions>& options, output::Progress& progress) {
     Document document = new_document();
     std::vector<Convergence> studies;
+    const auto first = static_cast<std::ptrdiff_t>(sections_.size());
     for (std::size_t k = 0; k < scenes.size(); ++k) {
       studies.push_back(converge(runner_, scenes[k], options[k], progress));
       if (studies.back().interrupted) return false;
@@ -185,6 +187,8 @@ class Study {
     }
     publish({model + "-orders", "Order of convergence: " + model, "", {order_matrix(studies)}, {}, {}},
             document);
+    // It stands before the scenes that it sums up.
+    std::rotate(sections_.begin() + first, sections_.end() - 1, sections_.end());
     return true;
   }
 
@@ -224,7 +228,8 @@ class Study {
     publish({"drift-" + plan.scene,
              "Drift: " + plan.scene,
              command(fmt::format("drift {} --step {:g} --tol {:g} --t-end {:g}", plan.scene, plan.step,
-                                 plan.tol, *changes.t_end)),
+                                 plan.tol, *changes.t_end),
+                     options),
              {drift_table(study)},
              drift_figure(context_.catalogue, study, "energy"),
              {}},
@@ -241,7 +246,7 @@ class Study {
     document.json()["survey"] = survey_json(study);
     publish({model + "-survey",
              "All schemes of equal steps: " + model,
-             command("survey " + model),
+             command("survey " + model, options),
              {survey_cost_table(study), survey_stability_table(study)},
              {},
              {}},
@@ -292,8 +297,7 @@ class Study {
   void write_page() const {
     output::ReportPage page;
     page.title = session_.quick ? "gnomon: quick study" : "gnomon: study";
-    for (const auto& [name, value] : session_.environment.items())
-      page.facts.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+    for (const auto& [name, value] : session_.environment.items()) page.facts.emplace_back(name, fact(value));
     if (!fastest_.empty()) page.summary.push_back(fastest_.table());
     page.summary.push_back(counts_.table());
     page.sections = sections_;
@@ -301,9 +305,21 @@ class Study {
                                   output::report_html(page, output::chart_library()));
   }
 
+  static std::string fact(const nlohmann::ordered_json& value) {
+    if (value.is_string()) return value;
+    if (!value.is_object()) return value.dump();
+    std::string text;
+    for (const auto& [name, each] : value.items())
+      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name, fact(each));
+    return text;
+  }
+
   static std::string command(const std::string& arguments, const StudyOptions& options = {}) {
-    if (options.integrators.empty()) return "./gnomon " + arguments;
-    return fmt::format("./gnomon {} --integrators {}", arguments, fmt::join(options.integrators, ","));
+    std::string text = "./gnomon " + arguments;
+    if (options.quick) text += " --quick";
+    if (!options.integrators.empty())
+      text += fmt::format(" --integrators {}", fmt::join(options.integrators, ","));
+    return text;
   }
 
   Document new_document() const {

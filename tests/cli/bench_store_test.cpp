@@ -102,7 +102,8 @@ TEST_CASE("bench: a study of one's own is measured once, and reported from the s
   CHECK(second.exit_code == 0);
   CHECK(says(second.err, "known already"));
   CHECK(study.keys() == keys);
-  CHECK(study.lines().size() == std::count(store.begin(), store.end(), '\n') + 1U);  // one more session
+  const auto lines = static_cast<std::size_t>(std::count(store.begin(), store.end(), '\n'));
+  CHECK(study.lines().size() == lines + 1);  // one more session
   const Outcome fresh = study.bench({"--fresh"});
   CHECK(says(fresh.err, "put aside in runs.previous.jsonl"));
   CHECK(study.keys() == keys);

@@ -1,10 +1,14 @@
 // Studies on schemes that crash, hang or take all memory: one row each, with its status and reason.
+#include <atomic>
+#include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "src/study/compare.hpp"
 #include "src/study/converge.hpp"
+#include "src/study/json.hpp"
 #include "src/study/keeper.hpp"
 #include "src/study/kept_row.hpp"
 #include "tests/catch.hpp"

@@ -1,15 +1,14 @@
 // Measurements in child processes: made once, kept as they end, and nothing they do harms the study.
 #include "src/study/keeper.hpp"
 
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <string>
