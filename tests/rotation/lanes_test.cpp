@@ -275,17 +275,21 @@ TEST_CASE("lanes: steps allocate nothing", "[rotation][lanes][allocation]") {
   for (const char* name :
        {"asymmetric-free-top", "asymmetric-heavy-top", "heavy-axis-fast", "space-moment"}) {
     const Scene scene = load_scene(catalogue, name);
-    with_rigid_body(scene, [&](const auto& model) {
+    with_rigid_body(scene, [&]<class M>(const M& model) {
       RunSpec spec;
       spec.t_end = scene.t_end;
       spec.tol = 1e-9;
-      const auto system = rotation::LanesExtrapolated::system(model);
-      const auto solver = rotation::LanesExtrapolated::make(*system, spec);
-      Status status = Status::unsupported;
-      CHECK(allocations_of([&] { status = solver->advance(spec.t_end, false); }) == 0);
-      CHECK(status == Status::ok);
-      CHECK(solver->t() == spec.t_end);
-      CHECK(solver->cost().steps >= 2);
+      if constexpr (!rotation::lanes::LaneBody<M>) {
+        FAIL("the lanes do not know this load");
+      } else {
+        const auto system = rotation::LanesExtrapolated::system(model);
+        const auto solver = rotation::LanesExtrapolated::make(*system, spec);
+        Status status = Status::unsupported;
+        CHECK(allocations_of([&] { status = solver->advance(spec.t_end, false); }) == 0);
+        CHECK(status == Status::ok);
+        CHECK(solver->t() == spec.t_end);
+        CHECK(solver->cost().steps >= 2);
+      }
     });
   }
 }
