@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t result = 0;
-  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++result;
-  return result;
-}
-
 /// Whether every element is closed in order; attributes are only skipped.
 bool is_well_formed(const std::string& xml) {
   std::vector<std::string> open;

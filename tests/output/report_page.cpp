@@ -49,12 +49,6 @@ ReportPage sample_page() {
   return page;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t number = 0;
-  for (std::size_t i = text.find(part); i != std::string::npos; i = text.find(part, i + 1)) ++number;
-  return number;
-}
-
 std::string browser() {
   for (const char* path : {"/usr/bin/chromium", "/usr/bin/chromium-headless-shell", "/usr/bin/google-chrome"})
     if (std::filesystem::exists(path)) return path;
