@@ -2,26 +2,72 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace gnomon::beam {
 
+namespace {
+
+/// A^-1 B by elimination without exchanges, A symmetric and positive definite.
+Eigen::MatrixXd quotient(Eigen::MatrixXd A, Eigen::MatrixXd B) {
+  const int n = static_cast<int>(A.rows());
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < n; ++i) {
+      if (i == k) continue;
+      const double factor = A(i, k) / A(k, k);
+      for (int j = 0; j < n; ++j) {
+        A(i, j) -= factor * A(k, j);
+        B(i, j) -= factor * B(k, j);
+      }
+    }
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) B(i, j) /= A(i, i);
+  return B;
+}
+
+/// A bound of the moduli of the eigenvalues, which are real, by the trace of the power 2^10: too large by at
+/// most n^(1/1024), 0.3 % for n = 15.
+double highest_eigenvalue(Eigen::MatrixXd A) {
+  const int n = static_cast<int>(A.rows());
+  Eigen::MatrixXd square(n, n);
+  double bound = 1.0, root = 1.0;
+  for (int power = 0; power < 10; ++power) {
+    double most = 0.0;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) most = std::max(most, std::abs(A(i, j)));
+    bound *= std::pow(most, root);
+    root *= 0.5;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        double sum = 0.0;
+        for (int k = 0; k < n; ++k) sum += A(i, k) * A(k, j);
+        square(i, j) = sum / (most * most);
+      }
+    A.swap(square);
+  }
+  double trace = 0.0;
+  for (int i = 0; i < n; ++i) trace += A(i, i);
+  return bound * std::pow(trace, root);
+}
+
+}  // namespace
+
 double stable_step(const NodalBeam& beam, const double* u, Mass mass) {
   Eigen::MatrixXd inertia = beam.element_mass();
-  if (mass == Mass::lumped) inertia = Eigen::MatrixXd(inertia.rowwise().sum().asDiagonal());
-  // K x = w^2 M x with M = L L^T: the eigenvalues of L^-1 K L^-T.
-  const Eigen::MatrixXd lower = inertia.llt().matrixL();
-  const Eigen::MatrixXd inverse =
-      lower.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(lower.rows(), lower.cols()));
+  if (mass == Mass::lumped)
+    for (int i = 0; i < inertia.rows(); ++i) {
+      double sum = 0.0;
+      for (int j = 0; j < inertia.cols(); ++j) {
+        sum += inertia(i, j);
+        inertia(i, j) = 0.0;
+      }
+      inertia(i, i) = sum;
+    }
   double highest = 0.0;
-  for (int e = 0; e < beam.elements(); ++e) {
-    const Eigen::MatrixXd scaled = inverse * beam.element_stiffness(u, e) * inverse.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
-    highest = std::max(highest, solver.eigenvalues().maxCoeff());
-  }
+  for (int e = 0; e < beam.elements(); ++e)
+    highest = std::max(highest, highest_eigenvalue(quotient(inertia, beam.element_stiffness(u, e))));
   return 2.0 / std::sqrt(highest);
 }
 
@@ -34,7 +80,7 @@ VerletMotion::VerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, E
 
 std::string VerletMotion::caution(double h) const {
   if (h <= stable_) return "";
-  return fmt::format("the step is above 2/omega_max = {:.3g} s, to which the scheme is stable", stable_);
+  return fmt::format("the step is above 2/omega_max = {:.3g} s, up to which the scheme is stable", stable_);
 }
 
 Status VerletMotion::step(double t, double h) {

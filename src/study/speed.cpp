@@ -89,7 +89,10 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
       spec.scheme.newton_tol = plan.newton_tol;
       const auto run = runner.catalogue().pair(scheme->name, *scenes.back().model)->run;
       const std::shared_ptr<const AnyModel> model = scenes.back().model;
-      tasks.push_back({[=] { return run(model->get(), spec).cpu_seconds; }});
+      tasks.push_back({[=] {
+        const RunResult result = run(model->get(), spec);
+        return result.status == Status::ok ? result.cpu_seconds : std::nan("");
+      }});
       names.push_back(fmt::format("{} {}, {}, {:.17g}, {:.17g}", plan.scene, scenes.back().physics_hash(),
                                   scheme->name, spec.step.value_or(0.0), plan.newton_tol));
       study.steps.push_back({plan.scene,

@@ -17,7 +17,7 @@ std::array<double, 4> errors(std::string_view scheme, const PlanarBeam<2>& model
 }
 
 /// All schemes have their declared order in all four classes of error between two steps; those of higher
-/// order take a sixth as many.
+/// order take a quarter as many.
 void check_orders(const PlanarBeam<2>& model, double t_end, int steps) {
   const auto any = box(model);
   const ReferenceStates reference = any->reference({t_end});
@@ -27,7 +27,7 @@ void check_orders(const PlanarBeam<2>& model, double t_end, int steps) {
   for (const SchemeInfo& scheme : beam_schemes()) {
     const auto order = scheme.order_for(model.load_class());
     if (!order) continue;
-    const int count = *order > 2.0 ? steps / 6 : steps;
+    const int count = *order > 2.0 ? steps / 4 : steps;
     const auto coarse = errors(scheme.name, model, t_end, count, reference),
                fine = errors(scheme.name, model, t_end, 2 * count, reference);
     for (std::size_t k = 0; k < 4; ++k) {
