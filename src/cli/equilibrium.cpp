@@ -19,7 +19,7 @@ StaticsOptions statics_options(const Context& context) {
   if (!request.load_steps.empty())
     options.load_steps = static_cast<int>(whole_number("--load-steps", request.load_steps, 1'000'000));
   options.arc_length = request.arc_length;
-  if (!request.newton_tol.empty()) options.newton_tol = common.newton_tol;
+  if (!request.newton_tol.empty()) options.newton_tol = common.scheme.newton_tol;
   if (!request.max_steps.empty()) options.max_points = common.max_steps;
   options.stop = &context.stop;
   return options;
