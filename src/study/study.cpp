@@ -109,6 +109,7 @@ std::vector<Row> Runner::run_all(const Scene& scene, const ReferenceStates& refe
         rows.push_back(kept.status == Status::ok
                            ? restore_row(scene, scheme, settings[k], kept.result)
                            : failed_row(scene, scheme, settings[k], kept.status, kept.message));
+        rows.back().options = options.scheme;
         return !(enough && enough(rows.back()));
       });
   return rows;
