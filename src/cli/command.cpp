@@ -130,14 +130,28 @@ SceneChanges scene_changes(const Request& request) {
   return changes;
 }
 
+std::optional<Variation> variation(const Request& request) {
+  if (request.vary.empty()) return std::nullopt;
+  return read_variation("--vary", request.vary);
+}
+
 std::vector<Scene> load_scenes(const Context& context) {
   std::vector<Scene> scenes;
-  for (const std::string& name : context.request.scenes) {
-    scenes.push_back(load_scene(context.catalogue, name, scene_changes(context.request)));
+  const auto load = [&](const std::string& name, const SceneChanges& changes) {
+    scenes.push_back(load_scene(context.catalogue, name, changes));
     for (std::size_t k = 0; k + 1 < scenes.size(); ++k)
       if (scenes[k].name == scenes.back().name)
         throw UsageError(fmt::format("SCENE: found two scenes with the name '{}', expected different names",
                                      scenes.back().name));
+  };
+  const std::optional<Variation> varied = variation(context.request);
+  SceneChanges changes = scene_changes(context.request);
+  for (const std::string& name : context.request.scenes) {
+    if (!varied) load(name, changes);
+    for (std::size_t k = 0; varied && k < varied->values.size(); ++k) {
+      changes.vary = varied->assignment(k);
+      load(name, changes);
+    }
   }
   if (scenes.empty())
     throw UsageError("SCENE: found nothing, expected the name of a shipped scene or a .toml file");

@@ -8,6 +8,7 @@
 #include "src/output/table.hpp"
 #include "src/study/json.hpp"
 #include "src/study/study.hpp"
+#include "src/study/vary.hpp"
 
 namespace gnomon::cli {
 
@@ -24,7 +25,9 @@ struct Request {
   std::vector<std::string> what;  ///< of `list` and `survey`
   std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol;
   std::vector<std::string> set;
-  std::string refine;  ///< of `converge`
+  std::string refine;     ///< of `converge`
+  std::string vary;       ///< of `stability`, `compare` and `drift`
+  std::string max_drift;  ///< of `stability`
   std::string json, csv, out;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
 };
@@ -38,8 +41,11 @@ struct Context {
 
 StudyOptions study_options(const Request& request);
 SceneChanges scene_changes(const Request& request);
-/// All scenes of the request. Throws UsageError when there is none.
+/// All scenes of the request, with --vary all variants of each one after the other. Throws UsageError when
+/// there is none.
 std::vector<Scene> load_scenes(const Context& context);
+/// What --vary says, if it is given.
+std::optional<Variation> variation(const Request& request);
 /// Their warnings, on standard error; for when all that can be refused has been checked.
 void warn(const std::vector<Scene>& scenes);
 /// A positive number from the command line, in the unit that `expected` names.
@@ -75,6 +81,7 @@ int converge(Context& context);
 int refine(Context& context);
 int compare(Context& context);
 int drift(Context& context);
+int stability(Context& context);
 int survey(Context& context);
 int bench(Context& context);
 int doctor(Context& context);
