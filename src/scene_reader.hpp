@@ -39,6 +39,8 @@ class Section {
   /// Makes a key that is absent known, and gives its default.
   std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback,
                                  std::string_view expected);
+  /// Two or more positive numbers.
+  std::vector<double> positives(std::string_view key, std::string_view expected);
   std::string text(std::string_view key, std::string_view expected);
   std::string text_or(std::string_view key, std::string_view fallback, std::string_view expected);
   /// A list of texts; none when the key is absent.

@@ -98,6 +98,12 @@ StudyOptions study_options(const Request& request) {
       throw UsageError(fmt::format("--integrators: found '{}' twice, expected every name once", name));
     options.integrators.push_back(std::move(name));
   }
+  const auto only_one = [](const char* one, const std::string& text, const char* other, bool both) {
+    if (both)
+      throw UsageError(fmt::format("{}: found '{}' beside {}, expected only one of them", one, text, other));
+  };
+  only_one("--step", request.step, "--steps", !request.step.empty() && !request.steps.empty());
+  only_one("--tol", request.tol, "--tols", !request.tol.empty() && !request.tols.empty());
   options.steps = each("--steps", request.steps, [](const std::string& option, const std::string& text) {
     return positive_number(option, text, "positive numbers (s) with one comma between them");
   });
