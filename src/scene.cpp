@@ -68,9 +68,10 @@ toml::table parse_value(const std::string& label, const std::string& value) {
   return parsed;
 }
 
-/// Writes one `--set key.path=value` into the tree.
-void apply_override(toml::table& root, const std::string& option, SceneSource& source) {
-  const std::string label = fmt::format("--set {}", option);
+/// Writes one `--set key.path=value`, or what another option says in the same form, into the tree.
+void apply_override(toml::table& root, const std::string& option, SceneSource& source,
+                    const std::string& option_name = "--set") {
+  const std::string label = fmt::format("{} {}", option_name, option);
   const std::size_t equals = option.find('=');
   if (equals == std::string::npos)
     throw UsageError(fmt::format("{}: found no '=', expected key.path=value", label));
@@ -153,6 +154,7 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
 
   toml::table table = parse_file(path);
   for (const std::string& option : changes.set) apply_override(table, option, source);
+  if (changes.vary) apply_override(table, *changes.vary, source, "--vary");
 
   Section root(table, "", source);
   root.refuse_misspelt({"name", "description", "model", "t_end"});
@@ -161,6 +163,7 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
       "a name in quotes: at most 100 letters, digits, - _ and . that begin with a letter or digit";
   scene.name = root.text("name", name);
   if (!is_plain_name(scene.name)) root.fail("name", root.shown("name"), name);
+  if (changes.vary) scene.name += fmt::format("[{}]", *changes.vary);
   scene.description = root.text_or("description", "", "a text in quotes on one line");
   if (output::plain_text(scene.description) != scene.description)
     root.fail("description", root.shown("description"), "a text in quotes on one line");

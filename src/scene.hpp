@@ -27,6 +27,8 @@ struct Scene {
 struct SceneChanges {
   std::optional<double> t_end;
   std::vector<std::string> set;  ///< "key.path=value"
+  /// One more of them, by which the scene is a variant: its name becomes "name[key.path=value]".
+  std::optional<std::string> vary{};
 };
 
 /// A shipped scene by its name, or a file that ends in .toml. Throws UsageError.

@@ -152,6 +152,17 @@ std::vector<double> Section::numbers(std::string_view key, std::size_t count, st
   return values;
 }
 
+std::vector<double> Section::positives(std::string_view key, std::string_view expected) {
+  const toml::array* list = require(key, expected).as_array();
+  if (!list || list->size() < 2) fail(key, shown(key), expected);
+  std::vector<double> values;
+  for (const toml::node& node : *list) {
+    values.push_back(finite(node, key, expected));
+    if (values.back() <= 0.0) fail(key, shown(key), expected);
+  }
+  return values;
+}
+
 std::vector<double> Section::numbers_or(std::string_view key, std::vector<double> fallback,
                                         std::string_view expected) {
   return find(key) ? numbers(key, fallback.size(), expected) : fallback;

@@ -43,6 +43,8 @@ class Section {
   std::vector<double> list(std::string_view key, std::string_view expected);
   /// Whether the key is there and true.
   bool flag(std::string_view key);
+  /// Two or more positive numbers.
+  std::vector<double> positives(std::string_view key, std::string_view expected);
   std::string text(std::string_view key, std::string_view expected);
   std::string text_or(std::string_view key, std::string_view fallback, std::string_view expected);
   /// A list of texts; none when the key is absent.

@@ -145,7 +145,10 @@ class Study {
                         }});
     for (const DriftPlan& plan : study.drift) {
       if (session_.quick && !plan.quick_t_end) continue;
-      parts_.push_back({"drift-" + plan.scene, "Drift: " + plan.scene, plan.integrators.size(),
+      const bool ladder = plan.steps.size() > 1;
+      parts_.push_back({(ladder ? "steps-" : "drift-") + plan.scene,
+                        (ladder ? "Large steps: " : "Drift: ") + plan.scene,
+                        plan.integrators.size() * plan.steps.size(),
                         [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
     }
     if (!study.survey.empty())
@@ -217,24 +220,32 @@ class Study {
     StudyOptions options;
     options.time_limit = run_limit;
     options.integrators = plan.integrators;
-    options.steps = {plan.step};
-    options.tols = {plan.tol};
+    options.steps = plan.steps;
+    if (plan.tol) options.tols = {*plan.tol};
+    // With large steps the motions part; what is kept and how runs fail is shown.
+    const bool ladder = plan.steps.size() > 1;
+    options.reference = !ladder;
     const DriftStudy study =
         drift(runner_, load_scene(context_.catalogue, plan.scene, changes), options, progress);
     if (study.interrupted) return false;
     Document document = new_document();
     document.add(study);
     document.add_drifts(study);
-    publish({"drift-" + plan.scene,
-             "Drift: " + plan.scene,
-             command(fmt::format("drift {} --step {:g} --tol {:g} --t-end {:g}", plan.scene, plan.step,
-                                 plan.tol, *changes.t_end),
-                     options),
-             {drift_table(study)},
+    std::vector<output::Table> tables{drift_table(study)};
+    if (ladder) tables.insert(tables.begin(), drift_runs_table(study));
+    std::string arguments = fmt::format("drift {} --t-end {:g} --step{} {:g}", plan.scene, *changes.t_end,
+                                        ladder ? "s" : "", fmt::join(plan.steps, ","));
+    if (plan.tol) arguments += fmt::format(" --tol {:g}", *plan.tol);
+    if (ladder) arguments += " --no-reference";
+    const std::string name = (ladder ? "steps-" : "drift-") + plan.scene;
+    publish({name,
+             (ladder ? "Large steps: " : "Drift: ") + plan.scene,
+             command(arguments, options),
+             tables,
              drift_figure(context_.catalogue, study, "energy"),
              {}},
             document);
-    counts_.add("drift-" + plan.scene, study);
+    if (!ladder) counts_.add(name, study);
     return true;
   }
 

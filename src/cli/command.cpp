@@ -107,6 +107,12 @@ StudyOptions study_options(const Request& request) {
       throw UsageError(fmt::format("--integrators: found '{}' twice, expected every name once", name));
     options.integrators.push_back(std::move(name));
   }
+  const auto only_one = [](const char* one, const std::string& text, const char* other, bool both) {
+    if (both)
+      throw UsageError(fmt::format("{}: found '{}' beside {}, expected only one of them", one, text, other));
+  };
+  only_one("--step", request.step, "--steps", !request.step.empty() && !request.steps.empty());
+  only_one("--tol", request.tol, "--tols", !request.tol.empty() && !request.tols.empty());
   options.steps = each("--steps", request.steps, [](const std::string& option, const std::string& text) {
     return positive_number(option, text, "positive numbers (s) with one comma between them");
   });
@@ -146,14 +152,28 @@ SceneChanges scene_changes(const Request& request) {
   return changes;
 }
 
+std::optional<Variation> variation(const Request& request) {
+  if (request.vary.empty()) return std::nullopt;
+  return read_variation("--vary", request.vary);
+}
+
 std::vector<Scene> load_scenes(const Context& context) {
   std::vector<Scene> scenes;
-  for (const std::string& name : context.request.scenes) {
-    scenes.push_back(load_scene(context.catalogue, name, scene_changes(context.request)));
+  const auto load = [&](const std::string& name, const SceneChanges& changes) {
+    scenes.push_back(load_scene(context.catalogue, name, changes));
     for (std::size_t k = 0; k + 1 < scenes.size(); ++k)
       if (scenes[k].name == scenes.back().name)
         throw UsageError(fmt::format("SCENE: found two scenes with the name '{}', expected different names",
                                      scenes.back().name));
+  };
+  const std::optional<Variation> varied = variation(context.request);
+  SceneChanges changes = scene_changes(context.request);
+  for (const std::string& name : context.request.scenes) {
+    if (!varied) load(name, changes);
+    for (std::size_t k = 0; varied && k < varied->values.size(); ++k) {
+      changes.vary = varied->assignment(k);
+      load(name, changes);
+    }
   }
   if (scenes.empty())
     throw UsageError("SCENE: found nothing, expected the name of a shipped scene or a .toml file");

@@ -8,6 +8,7 @@
 #include "src/output/table.hpp"
 #include "src/study/json.hpp"
 #include "src/study/study.hpp"
+#include "src/study/vary.hpp"
 
 namespace gnomon::cli {
 
@@ -26,6 +27,8 @@ struct Request {
       spectral_radius;
   std::vector<std::string> set;
   std::string refine;      ///< of `converge`
+  std::string vary;        ///< of `stability`, `compare` and `drift`
+  std::string max_drift;   ///< of `stability`
   std::string load_steps;  ///< of `static`
   std::string study;       ///< of `bench`
   std::string json, csv, out;
@@ -42,8 +45,11 @@ struct Context {
 
 StudyOptions study_options(const Request& request);
 SceneChanges scene_changes(const Request& request);
-/// All scenes of the request. Throws UsageError when there is none.
+/// All scenes of the request, with --vary all variants of each one after the other. Throws UsageError when
+/// there is none.
 std::vector<Scene> load_scenes(const Context& context);
+/// What --vary says, if it is given.
+std::optional<Variation> variation(const Request& request);
 /// Their warnings, on standard error; for when all that can be refused has been checked.
 void warn(const std::vector<Scene>& scenes);
 /// A positive number from the command line, in the unit that `expected` names.
@@ -88,6 +94,7 @@ int compare(Context& context);
 int drift(Context& context);
 /// The command `static`.
 int statics(Context& context);
+int stability(Context& context);
 int survey(Context& context);
 int bench(Context& context);
 int report(Context& context);

@@ -19,7 +19,7 @@ int drift(Context& context) {
   ReferenceStore references(reference_folder());
   Runner runner(context.catalogue, references, context.stop);
   std::size_t total = 0;
-  for (const Scene& scene : scenes) total += select(context.catalogue, scene, options).size();
+  for (const Scene& scene : scenes) total += drift_runs(context.catalogue, scene, options);
   output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);
   Document document(context.catalogue, "drift");
   std::vector<DriftStudy> studies;
@@ -34,14 +34,16 @@ int drift(Context& context) {
   std::vector<output::Table> tables;
   std::vector<const SceneStudy*> pointers;
   for (const DriftStudy& study : studies) {
-    tables.push_back(drift_table(study));
+    std::vector<output::Table> own_tables{drift_table(study)};
+    if (study.has_ladder()) own_tables.insert(own_tables.begin(), drift_runs_table(study));
+    tables.push_back(own_tables.front());
     pointers.push_back(&study);
-    show(request, tables.back());
+    for (const output::Table& table : own_tables) show(request, table);
     if (request.out.empty()) continue;
     Document own(context.catalogue, "drift");
     own.add(study);
     own.add_drifts(study);
-    for (const std::string& file : write_study(request.out, "drift-" + study.scene.name, {tables.back()}, own,
+    for (const std::string& file : write_study(request.out, "drift-" + study.scene.name, own_tables, own,
                                                drift_figure(context.catalogue, study, "energy"), ""))
       say(request, "wrote " + file);
   }

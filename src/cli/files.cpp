@@ -7,11 +7,29 @@
 #include "src/output/files.hpp"
 
 namespace gnomon::cli {
+namespace {
 
-std::vector<std::string> write_study(const std::string& folder, const std::string& stem,
+/// A name as it may stand in names of files and in links: "a[b.c=1]" becomes "a-b.c=1".
+std::string file_name(const std::string& name) {
+  std::string result;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.' || c == '=' || c == '+';
+    if (plain)
+      result += c;
+    else if (c != ']' && c != '"')
+      result += '-';
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> write_study(const std::string& folder, const std::string& name,
                                      const std::vector<output::Table>& tables, const Document& document,
                                      const std::optional<output::Figure>& figure,
                                      const std::string& heading) {
+  const std::string stem = file_name(name);
   std::vector<std::string> written;
   const auto write = [&](const std::string& suffix, const std::string& text) {
     const std::string path = fmt::format("{}/{}{}", folder, stem, suffix);

@@ -3,6 +3,27 @@
 #include <fmt/format.h>
 
 namespace gnomon {
+namespace {
+
+std::vector<Setting> drift_settings(const Scene& scene, const SchemeInfo& scheme,
+                                    const StudyOptions& options) {
+  return settings(scheme, options, {0.1 * scene.model->time_scale()}, {1e-8});
+}
+
+}  // namespace
+
+bool DriftStudy::has_ladder() const {
+  for (std::size_t k = 1; k < rows.size(); ++k)
+    if (rows[k].scheme == rows[k - 1].scheme) return true;
+  return false;
+}
+
+std::size_t drift_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
+  std::size_t runs = 0;
+  for (const SchemeInfo* scheme : select(catalogue, scene, options))
+    runs += drift_settings(scene, *scheme, options).size();
+  return runs;
+}
 
 DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& given, output::Progress& progress) {
   StudyOptions options = given;
@@ -11,9 +32,8 @@ DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& given, output:
   study.scene = std::move(scene);
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
-  const std::vector<double> steps{0.1 * study.scene.model->time_scale()}, tols{1e-8};
   for (const SchemeInfo* scheme : schemes)
-    for (const Setting& setting : settings(*scheme, options, steps, tols)) {
+    for (const Setting& setting : drift_settings(study.scene, *scheme, options)) {
       if (runner.stopped()) {
         study.interrupted = true;
         return study;

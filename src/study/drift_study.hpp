@@ -15,10 +15,14 @@ struct DriftRow {
 
 struct DriftStudy : SceneStudy {
   std::vector<DriftRow> drifts;
+  /// A scheme ran at more than one step or tolerance.
+  bool has_ladder() const;
 };
 
 /// Long runs, their invariants sampled at jittered times so that no period is aliased, the trajectory error
 /// beside them.
 DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
+
+std::size_t drift_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options);
 
 }  // namespace gnomon

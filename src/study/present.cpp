@@ -220,6 +220,44 @@ Table drift_table(const DriftStudy& study) {
   return table;
 }
 
+Table drift_runs_table(const DriftStudy& study) {
+  Table table;
+  table.caption = fmt::format("Runs by step, {} to t = {:g} s", study.scene.name, study.scene.t_end);
+  table.columns = {{"integrator", "integrator", Align::left}, {"setting", "setting", Align::left}};
+  const std::vector<InvariantInfo> infos = study.scene.model->invariant_info();
+  for (const InvariantInfo& info : infos) {
+    table.columns.push_back({info.name + "_max_drift", info.name + " drift"});
+    table.columns.push_back({info.name + "_verdict", "verdict", Align::left});
+  }
+  table.columns.insert(
+      table.columns.end(),
+      {{"status", "status", Align::left}, {"reason", "reason", Align::left}, {"t_s", "time reached [s]"}});
+  for (std::size_t k = 0; k < study.rows.size(); ++k) {
+    const RunResult& result = study.rows[k].result;
+    std::vector<Cell> cells{std::string(study.rows[k].scheme->name), study.rows[k].setting.text()};
+    for (const InvariantInfo& info : infos) {
+      const auto row = std::ranges::find_if(study.drifts, [&](const DriftRow& each) {
+        return each.row == k && each.invariant.info.name == info.name;
+      });
+      if (row == study.drifts.end()) {
+        cells.insert(cells.end(), 2, Cell{});
+        continue;
+      }
+      cells.push_back(output::number_cell(row->drift.max_abs, 2));
+      cells.emplace_back(std::string(result.status == Status::ok ? to_string(row->drift.verdict) : "failed"));
+    }
+    cells.emplace_back(std::string(to_string(result.status)));
+    cells.push_back(result.message.empty() ? Cell{} : Cell(result.message));
+    cells.push_back(output::number_cell(result.t, 6));
+    table.rows.push_back(std::move(cells));
+  }
+  table.notes.push_back(
+      "largest drift relative to the invariant's scale, at jittered times; of a run that failed, up to the "
+      "time "
+      "it reached");
+  return table;
+}
+
 output::Figure convergence_figure(const Catalogue& catalogue, const Convergence& study) {
   output::Figure figure;
   figure.title = study.scene.name;
@@ -283,6 +321,10 @@ output::Figure drift_figure(const Catalogue& catalogue, const DriftStudy& study,
     output::Series series;
     series.label = std::string(scheme.name);
     series.style = style_of_scheme(catalogue, scheme);
+    if (study.has_ladder()) {
+      series.label += ", " + study.rows[row.row].setting.text();
+      series.style = static_cast<int>(row.row);
+    }
     // Twelve points a decade of the running maximum are enough to see growth.
     double largest = 0.0, next = 0.0;
     for (std::size_t k = 0; k < row.invariant.times.size(); ++k) {

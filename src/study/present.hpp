@@ -18,6 +18,8 @@ output::Table runs_table(const SceneStudy& study, const std::string& caption);
 output::Table orders_table(const Convergence& study);
 output::Table costs_table(const Comparison& study);
 output::Table drift_table(const DriftStudy& study);
+/// One row a run: what becomes of every invariant, how the run ended and the time it reached.
+output::Table drift_runs_table(const DriftStudy& study);
 
 /// Error against step, or against the tolerance in a second panel.
 output::Figure convergence_figure(const Catalogue& catalogue, const Convergence& study);

@@ -36,14 +36,18 @@ StudyPlan read_study(const std::string& path) {
   plan.quick_compare = root.texts("quick_compare", "names of scenes");
   plan.integrators = root.texts("integrators", "names of integrators");
   each("drift", [&](Section& section) {
-    section.only({"scene", "t_end", "quick_t_end", "step", "tol", "integrators"});
+    section.only({"scene", "t_end", "quick_t_end", "step", "steps", "tol", "integrators"});
     DriftPlan drift;
     drift.scene = section.text("scene", "a scene's name");
     drift.t_end = section.positive("t_end", "a positive number (s)");
     if (section.has("quick_t_end"))
       drift.quick_t_end = section.positive("quick_t_end", "a positive number (s)");
-    drift.step = section.positive("step", "a positive number (s)");
-    drift.tol = section.positive("tol", "a tolerance");
+    const char* meaning = "one step, or several as a list";
+    if (section.exactly_one("step", "steps", meaning) == "step")
+      drift.steps = {section.positive("step", "a positive number (s)")};
+    else
+      drift.steps = section.positives("steps", "positive numbers (s), at least two");
+    if (section.has("tol")) drift.tol = section.positive("tol", "a tolerance");
     drift.integrators = section.texts("integrators", "names of integrators");
     plan.drift.push_back(std::move(drift));
   });

@@ -9,8 +9,8 @@ struct DriftPlan {
   std::string scene;
   double t_end;
   std::optional<double> quick_t_end;  ///< none: not part of a quick study
-  double step;
-  double tol;
+  std::vector<double> steps;  ///< s; several of them, from "steps" in the file, make a table of large steps
+  std::optional<double> tol;
   std::vector<std::string> integrators;
 };
 

@@ -25,37 +25,19 @@ Scene load(const Catalogue& catalogue, const std::string& name, std::optional<do
   return load_scene(catalogue, name, changes);
 }
 
-/// Why a run does not count as one that survived: its status, or an invariant off by a hundredth of its
-/// scale.
-std::string failure_of(const Row& row) {
-  if (row.result.status != Status::ok) return std::string(to_string(row.result.status));
-  for (const InvariantSummary& invariant : row.invariants)
-    if (!(invariant.max_drift <= 0.01))
-      return fmt::format("{} off by {:.1g}", invariant.info.name, invariant.max_drift);
-  return "";
-}
-
-/// Steps from a hundredth of the motion's time scale to 16 times it, by factors of 2, over 500 time scales or
-/// the long run. The step survives if all smaller ones do.
-Breaking find_breaking(Runner& runner, const SurveyClass& of, const SchemeInfo& scheme) {
+/// Steps from a 64th of the motion's time scale to 16 times it, by factors of 2, over 500 time scales or
+/// the long run; an invariant may be off by a hundredth of its scale.
+Breaking breaking_of(Runner& runner, const SurveyClass& of, const SchemeInfo& scheme) {
   const double scale = of.scene.model->time_scale();
   const Scene scene = load(runner.catalogue(), of.plan.scene, std::min(500.0 * scale, of.plan.t_end));
   StudyOptions options;
   options.time_limit = 20.0;
-  std::vector<Setting> settings;
-  for (int k = -6; k <= 4; ++k) settings.push_back({scale * std::pow(2.0, k), std::nullopt});
-  Breaking breaking;
-  for (const Row& row : runner.run_all(
-           scene, {}, scheme, settings, options, [](const Setting&) {},
-           [](const Row& each) { return !failure_of(each).empty(); })) {
-    const std::string failure = failure_of(row);
-    if (failure.empty()) {
-      breaking.survived = *row.setting.step;
-    } else {
-      breaking.breaks = row.setting.step;
-      breaking.how = failure;
-    }
-  }
+  StepSearch search;
+  search.first = scale / 64.0;
+  search.count = 11;
+  search.survival.max_drift = 0.01;
+  Breaking breaking = find_breaking(runner, scene, {}, scheme, search, options);
+  breaking.trials.clear();
   return breaking;
 }
 
@@ -189,7 +171,7 @@ Survey survey(Runner& runner, const std::string& model, const std::vector<Survey
     add_drift(runner, of, options, progress);
     for (SurveyEntry& entry : of.entries) {
       progress.begin(fmt::format("{} / {}  larger and larger steps", plan.scene, entry.scheme->name));
-      if (!runner.stopped()) entry.breaking = find_breaking(runner, of, *entry.scheme);
+      if (!runner.stopped()) entry.breaking = breaking_of(runner, of, *entry.scheme);
     }
     if (runner.stopped()) break;
     study.classes.push_back(std::move(of));

@@ -7,18 +7,12 @@
 #include "src/measure/order.hpp"
 #include "src/measure/timing.hpp"
 #include "src/output/table.hpp"
+#include "src/study/breaking.hpp"
 #include "src/study/json.hpp"
 #include "src/study/study.hpp"
 #include "src/study/study_file.hpp"
 
 namespace gnomon {
-
-/// Why a run at a larger step is no longer a motion of the model.
-struct Breaking {
-  double survived = 0.0;         ///< largest step of the ladder that holds, s; 0 if none does
-  std::optional<double> breaks;  ///< the next larger one, s; none where the ladder ends first
-  std::string how;               ///< status and reason, or the invariant that was lost
-};
 
 /// What one scheme of equal steps does on one class of scenes.
 struct SurveyEntry {

@@ -212,6 +212,32 @@ TEST_CASE("cli: drift reports every invariant of every run in its JSON", "[cli]"
   }
 }
 
+TEST_CASE("cli: drift at several steps shows how each run ended", "[cli]") {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_program({"drift", "free-flight", "--integrators", "beam-midpoint,beam-energy-momentum", "--steps",
+                   "0.5,10", "--t-end", "40", "--no-reference", "--quiet", "--csv", "runs.csv", "--json",
+                   "all.json", "--out", "out"},
+                  folder.path());
+  INFO(outcome.err);
+  // A run that was asked for by name failed.
+  CHECK(outcome.exit_code == 1);
+  const std::string csv = content_of(folder.path() / "runs.csv");
+  CHECK(csv.starts_with("integrator,setting,energy_max_drift,energy_verdict,linear_momentum_max_drift,"));
+  CHECK(std::count(csv.begin(), csv.end(), '\n') == 1 + 4);
+  CHECK(csv.find("beam-midpoint,step 10,") != std::string::npos);
+  const Json json = Json::parse(content_of(folder.path() / "all.json"));
+  REQUIRE(json["runs"].size() == 4);
+  CHECK(json["runs"][0]["status"] == "ok");
+  CHECK(json["runs"][1]["status"] == "newton_failed");
+  CHECK(json["runs"][1]["t"] < 40.0);
+  CHECK(json["runs"][3]["status"] == "ok");
+  CHECK(json["runs"][3]["requested_step"] == 10.0);
+  CHECK(json["drifts"].size() == 4 * 3);
+  CHECK(json["drifts"][3]["verdict"] == "failed");
+  CHECK(content_of(folder.path() / "out" / "drift-free-flight.md").find("Runs by step") != std::string::npos);
+}
+
 TEST_CASE("cli: list and doctor print nothing but JSON with --json -", "[cli]") {
   const Json list = json_of({"list"});
   CHECK(keys_of(list) == Keys{"gnomon", "command", "scenes", "models", "integrators"});

@@ -36,6 +36,12 @@ TEST_CASE("study file: what it says is read", "[study]") {
   CHECK(plan.drift[0].quick_t_end == 1e3);
   CHECK(!plan.drift[1].quick_t_end);
   CHECK(plan.drift[0].integrators.front() == "munjiza");
+  CHECK(plan.drift[0].steps == std::vector<double>{0.1});
+  CHECK(plan.drift[0].tol == 1e-8);
+  const StudyPlan beams = read_study(GNOMON_SOURCE_DIR "/models/planar_beam/study.toml");
+  REQUIRE(beams.drift.size() == 3);
+  CHECK(beams.drift[1].steps == std::vector<double>{0.05, 0.1, 0.25, 0.5});
+  CHECK(!beams.drift[1].tol);
   CHECK(plan.speed.size() >= 4);
   REQUIRE(plan.survey.size() >= 4);
   CHECK(plan.survey[1].label == "space moment");
@@ -49,6 +55,16 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
   CHECK(refusal("converge = \"a\"\n") == "1: converge: found \"a\", expected names of scenes");
   CHECK(refusal("compare = [1]\n") == "1: compare: found [1], expected names of scenes");
   CHECK(refusal("drift = 1\n") == "1: drift: found 1, expected tables [[drift]]");
+  const std::string drift = "[[drift]]\nscene = \"a\"\nt_end = 1\n";
+  CHECK(refusal(drift + "integrators = []\nsteps = [0.1, 0.2]\n") == "nothing");
+  CHECK(refusal(drift) ==
+        "1: drift[0].step: found nothing, expected step or steps (one step, or several as a list)");
+  CHECK(refusal(drift + "step = 1\nsteps = [1, 2]\n") ==
+        "5: drift[0].steps: found both step and steps, expected only one of them (one step, or several as a "
+        "list)");
+  for (const char* steps : {"[1]", "[1, -2]", "1"})
+    CHECK(refusal(drift + "steps = " + steps + "\n") ==
+          std::string("4: drift[0].steps: found ") + steps + ", expected positive numbers (s), at least two");
   CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = -1\n") ==
         "3: speed[0].step: found -1, expected a positive number (s)");
   CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = 1\ntol = 1\n") ==

@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/scene.hpp"
+
+namespace gnomon {
+
+/// One key of a scene takes each of several values.
+struct Variation {
+  std::string key;                  ///< as in --set, e.g. "beam.EA"
+  std::vector<std::string> values;  ///< as they were written, TOML
+  /// The values as numbers; none unless all of them are.
+  std::optional<std::vector<double>> numbers() const;
+  /// The key and its k-th value, as --set takes them.
+  std::string assignment(std::size_t k) const { return key + "=" + values[k]; }
+};
+
+/// Reads "key=v1,v2,.."; commas inside brackets and quotes belong to a value. Throws UsageError, with
+/// `option` in the message.
+Variation read_variation(const std::string& option, const std::string& text);
+
+}  // namespace gnomon
