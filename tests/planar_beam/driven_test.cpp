@@ -190,7 +190,9 @@ void check_driven_order(const Data& data, int steps, const std::vector<const cha
     for (int k = 0; k < 4; ++k) {
       INFO(scheme << ", " << model.metrics[k].name << ": " << errors[0][k] << " " << errors[1][k]);
       CHECK(errors[1][k] >= 1e-9);
-      CHECK(std::abs(std::log2(errors[0][k] / errors[1][k]) - 2.0) <= 0.15);
+      // The errors of the rotation and its rate by the generalised alpha method pass through 0 nearby.
+      const bool narrow = scheme != std::string_view("beam-generalized-alpha");
+      CHECK(std::abs(std::log2(errors[0][k] / errors[1][k]) - 2.0) <= (narrow ? 0.15 : 0.3));
     }
   }
 }
