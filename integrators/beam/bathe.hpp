@@ -16,10 +16,10 @@ class BatheMotion {
   NodalMotion nodal;
 
  private:
-  /// Solves M a + f(u) = F, u = start_ + kappa a, with the held entries at time t.
-  bool stage(double from, double t, double h, double kappa);
+  /// The stage that ends at t, u and v as they are in start_u_ and start_v_ plus rate^2 a and rate a.
+  bool solve(double t, double h, double rate);
 
-  Eigen::VectorXd start_, known_, force_, middle_u_, middle_v_, next_u_, next_v_, next_a_;
+  Eigen::VectorXd start_u_, start_v_, known_, force_, next_u_, next_v_, next_a_;
 };
 
 struct BeamBathe : NodalScheme<BatheMotion> {
@@ -31,7 +31,7 @@ struct BeamBathe : NodalScheme<BatheMotion> {
           "R.E. Bank et al., IEEE Trans. Electron Devices 32 (1985) 1992-2007 (TR-BDF2); K.J. Bathe, "
           "Computers & Structures 85 (2007) 437-445, there split at h/2",
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
   };
 };
 

@@ -16,7 +16,7 @@ struct BeamEnergyMomentum4 : MidpointStep<Turning::cayley> {
           "M. Suzuki, Phys. Lett. A 146 (1990) 319-323; E. Hairer, C. Lubich, G. Wanner, Geometric "
           "Numerical Integration, II.4, eq. (4.5)",
       .form = "beam",
-      .orders = {{{"none", 4}, {"dead", 4}}},
+      .orders = {{{"none", 4}, {"dead", 4}, {"follower", 4}}},
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,

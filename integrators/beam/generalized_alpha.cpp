@@ -27,7 +27,8 @@ GeneralizedAlphaMotion::GeneralizedAlphaMotion(std::unique_ptr<NodalBeam> beam, 
                                                Eigen::VectorXd v, const SchemeOptions& options,
                                                const AlphaParameters& parameters)
     : nodal(std::move(beam), std::move(u), std::move(v), options), parameters_(parameters) {
-  for (Eigen::VectorXd* vector : {&start_, &known_, &external_, &force_, &next_u_, &next_v_, &next_a_})
+  for (Eigen::VectorXd* vector :
+       {&start_u_, &start_v_, &known_, &external_, &force_, &next_u_, &next_v_, &next_a_})
     vector->setZero(nodal.u.size());
 }
 
@@ -35,7 +36,8 @@ Status GeneralizedAlphaMotion::step(double t, double h) {
   const auto& [alpha_m, alpha_f, beta, gamma] = parameters_;
   nodal.begin(t, h);
   const Eigen::VectorXd &u = nodal.u, &v = nodal.v, &a = nodal.a;
-  // known_ = alpha_m M a_n + alpha_f f_n - F, F averaged as f is
+
+  // known_ = M (alpha_m a_n + alpha_f damping v_n) + alpha_f f_n - F, F averaged as f is
   nodal.force_before(t + h, h, external_);
   external_ *= 1.0 - alpha_f;
   if (alpha_f != 0.0) {
@@ -43,22 +45,18 @@ Status GeneralizedAlphaMotion::step(double t, double h) {
     external_ += alpha_f * force_;
   }
   known_ = alpha_f * nodal.internal - external_;
-  if (alpha_m != 0.0) {
-    nodal.beam->momentum(a.data(), force_.data());
-    known_ += alpha_m * force_;
+  if (alpha_m != 0.0 || alpha_f != 0.0) {
+    start_u_ = alpha_m * a + alpha_f * nodal.beam->damping() * v;
+    nodal.beam->momentum(start_u_.data(), force_.data());
+    known_ += force_;
   }
-  const Stage stage{1.0 - alpha_m, 1.0 - alpha_f, beta * h * h, nodal.size_of(external_)};
-
-  start_ = u + h * v + h * h * (0.5 - beta) * a;
-  next_u_ = u;
+  const double size = nodal.size_of(external_);
+  const Stage stage{1.0 - alpha_m, 1.0 - alpha_f, beta * h * h, gamma * h, t + h, h, size};
+  start_u_ = u + h * v + h * h * (0.5 - beta) * a;
+  start_v_ = v + h * (1.0 - gamma) * a;
   next_a_ = a;
-  next_v_ = v;
-  nodal.drive(t, t + h, h, next_u_, next_v_, next_a_);
-  for (int i : nodal.beam->held()) start_[i] = next_u_[i] - stage.kappa * next_a_[i];
-  if (!nodal.solve(stage, start_, known_, next_a_, next_u_, force_)) return Status::newton_failed;
-
-  next_v_ = v + h * ((1.0 - gamma) * a + gamma * next_a_);
-  nodal.drive(t, t + h, h, next_u_, next_v_, next_a_);
+  if (!nodal.solve(stage, start_u_, start_v_, known_, next_u_, next_v_, next_a_, force_))
+    return Status::newton_failed;
   nodal.u.swap(next_u_);
   nodal.v.swap(next_v_);
   nodal.a.swap(next_a_);

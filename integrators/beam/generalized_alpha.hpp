@@ -29,7 +29,7 @@ class GeneralizedAlphaMotion {
 
  private:
   AlphaParameters parameters_;
-  Eigen::VectorXd start_, known_, external_, force_, next_u_, next_v_, next_a_;
+  Eigen::VectorXd start_u_, start_v_, known_, external_, force_, next_u_, next_v_, next_a_;
 };
 
 struct TrapezoidalMotion : GeneralizedAlphaMotion {
@@ -52,7 +52,7 @@ struct BeamTrapezoidal : NodalScheme<TrapezoidalMotion> {
       .summary = "Newmark's average acceleration, beta = 1/4 and gamma = 1/2: the trapezoidal rule",
       .citation = "N.M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67-94",
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
   };
 };
@@ -64,7 +64,7 @@ struct BeamGeneralizedAlpha : NodalScheme<ChungHulbertMotion> {
       .summary = "generalised alpha method, spectral radius 0.8 at infinity or by --spectral-radius",
       .citation = "J. Chung, G.M. Hulbert, J. Appl. Mech. 60 (1993) 371-375, eqs (17), (20), (25)",
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .spectral_radii = {{0.0, 1.0}},
   };
 };
@@ -76,7 +76,7 @@ struct BeamHht : NodalScheme<HhtMotion> {
       .summary = "HHT alpha method, spectral radius 0.8 at infinity or by --spectral-radius (0.5 to 1)",
       .citation = "H.M. Hilber, T.J.R. Hughes, R.L. Taylor, Earthq. Eng. Struct. Dyn. 5 (1977) 283-292",
       .form = "beam",
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .spectral_radii = {{0.5, 1.0}},
   };
 };

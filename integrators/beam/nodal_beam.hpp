@@ -10,8 +10,9 @@
 
 namespace gnomon::beam {
 
-/// A beam by its nodal values u and v, of whatever order its elements are: M u'' + f(u) = F(t) for the free
-/// unknowns. The schemes on it are compiled once. All vectors have `unknowns()` entries.
+/// A beam by its nodal values u and v, of whatever order its elements are: M (u'' + damping u') + f(u, t) =
+/// F(t) for the free unknowns; f are the internal forces less those of loads that follow the beam. The
+/// schemes on it are compiled once. All vectors have `unknowns()` entries.
 class NodalBeam {
  public:
   virtual ~NodalBeam() = default;
@@ -21,6 +22,7 @@ class NodalBeam {
   virtual int elements() const = 0;
   virtual double length() const = 0;
   virtual planar_beam::CrossSection section() const = 0;
+  virtual double damping() const = 0;  ///< 1/s
   virtual const std::vector<int>& held() const = 0;
   virtual const planar_beam::Motion* prescribed(int unknown) const = 0;
   virtual std::vector<double> breaks() const = 0;
@@ -28,18 +30,19 @@ class NodalBeam {
   virtual void jump(double t, double* v) const = 0;
 
   virtual void external_force(double t, double* force) const = 0;
-  virtual void internal_force(const double* u, double* force) const = 0;
-  virtual void momentum(const double* v, double* product) const = 0;  ///< M v
+  virtual void internal_force(double t, const double* u, double* force) const = 0;  ///< f
+  virtual void momentum(const double* v, double* product) const = 0;                ///< M v
   /// M_ff^-1 times the forces on the free unknowns; 0 for those that are held.
   virtual void accelerate(double* force) const = 0;
   /// Row sums of M.
   virtual std::vector<double> lumped_mass() const = 0;
 
-  /// Factorises mass M + stiffness K(u) of the free unknowns, K = df/du.
-  virtual void factorise(double mass, double stiffness, const double* u) = 0;
+  /// Factorises mass M + stiffness K of the free unknowns, K = df/du.
+  virtual void factorise(double mass, double stiffness, double t, const double* u) = 0;
   /// Solves in place with what was factorised; 0 for unknowns that are held.
   virtual void solve(double* values) const = 0;
 
+  /// Without the loads that follow.
   virtual Eigen::MatrixXd element_stiffness(const double* u, int element) const = 0;
   virtual Eigen::MatrixXd element_mass() const = 0;
 };
@@ -55,13 +58,23 @@ class NodalBeamOf final : public NodalBeam {
   int elements() const override { return model_->elements(); }
   double length() const override { return model_->data().length; }
   planar_beam::CrossSection section() const override { return model_->section(); }
+  double damping() const override { return model_->damping(); }
   const std::vector<int>& held() const override { return model_->held(); }
   const planar_beam::Motion* prescribed(int unknown) const override { return model_->prescribed(unknown); }
   std::vector<double> breaks() const override { return model_->breaks(); }
   void jump(double t, double* v) const override { model_->jump(t, v); }
 
   void external_force(double t, double* force) const override { model_->external_force(t, force); }
-  void internal_force(const double* u, double* force) const override { model_->internal_force(u, force); }
+  void internal_force(double t, const double* u, double* force) const override {
+    model_->internal_force(u, force);
+    if (!model_->has_followers()) return;
+    for (int end = 0; end < 2; ++end) {
+      const int i = model_->end_unknown(end);
+      const auto load = model_->following(t, end, u[i + 2]);
+      force[i] -= load.force[0];
+      force[i + 1] -= load.force[1];
+    }
+  }
   void momentum(const double* v, double* product) const override { model_->momentum(v, product); }
   void accelerate(double* force) const override { model_->accelerate(force); }
   std::vector<double> lumped_mass() const override {
@@ -73,9 +86,9 @@ class NodalBeamOf final : public NodalBeam {
     return mass;
   }
 
-  void factorise(double mass, double stiffness, const double* u) override {
+  void factorise(double mass, double stiffness, double t, const double* u) override {
     for (int e = 0; e < elements(); ++e) {
-      Matrix matrix = stiffness * model_->element_tangent(u, e);
+      Matrix matrix = stiffness * model_->element_tangent(t, u, e);
       add_mass(mass, matrix);
       chain_.add(e, matrix);
     }

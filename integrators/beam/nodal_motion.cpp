@@ -10,6 +10,7 @@ NodalMotion::NodalMotion(std::unique_ptr<NodalBeam> nodal, Vector displacements,
     : beam(std::move(nodal)),
       u(std::move(displacements)),
       v(std::move(velocities)),
+      damping_(beam->damping()),
       tolerance_(options.newton_tol),
       kept_while_(options.modified_newton ? 0.2 : 1e-2) {
   for (Vector* vector : {&a, &internal, &residual_, &correction_, &trial_, &guess_, &inertia_})
@@ -34,8 +35,12 @@ void NodalMotion::clear_held(Vector& values) const {
   for (int i : beam->held()) values[i] = 0.0;
 }
 
-void NodalMotion::evaluate_force(const Vector& at_u, Vector& force) {
-  beam->internal_force(at_u.data(), force.data());
+double NodalMotion::before(double t, double h) const {
+  return std::nextafter(snapped(t, h), -std::numeric_limits<double>::infinity());
+}
+
+void NodalMotion::evaluate_force(double t, const Vector& at_u, Vector& force) {
+  beam->internal_force(t, at_u.data(), force.data());
   clear_held(force);
   ++evaluations;
 }
@@ -45,7 +50,7 @@ void NodalMotion::force_after(double t, double h, Vector& force) const {
   clear_held(force);
 }
 void NodalMotion::force_before(double t, double h, Vector& force) const {
-  beam->external_force(std::nextafter(snapped(t, h), -std::numeric_limits<double>::infinity()), force.data());
+  beam->external_force(before(t, h), force.data());
   clear_held(force);
 }
 
@@ -54,49 +59,50 @@ void NodalMotion::begin(double t, double h) {
   if (started_ && std::find(breaks_.begin(), breaks_.end(), from) == breaks_.end()) return;
   started_ = true;
   if (lumped.empty()) beam->jump(from, v.data());
-  for (const Driven& end : driven_) {
-    const double to = snapped(t + h, h), rate = end.motion.rate_after(from);
-    v[end.unknown] = rate;
-    a[end.unknown] =
-        (4.0 * end.motion.rate_after(0.5 * (from + to)) - 3.0 * rate - end.motion.rate_before(to)) /
-        (to - from);
+  for (const Driven& one : driven_) {
+    v[one.unknown] = one.motion.rate_after(from);
+    a[one.unknown] = one.motion.acceleration_after(from);
   }
   force_after(from, h, residual_);
-  accelerate_by(residual_);
+  accelerate_by(from, residual_);
+  a -= damping_ * v;
+  for (int i : beam->held()) a[i] = trial_[i];
 }
 
 void NodalMotion::accelerate(double t, double h) {
   force_before(t, h, residual_);
-  accelerate_by(residual_);
+  accelerate_by(before(t, h), residual_);
 }
 
-/// The accelerations by an external force, which is overwritten.
-void NodalMotion::accelerate_by(Vector& force) {
-  evaluate_force(u, internal);
+/// The accelerations by an external force, which is overwritten; `trial_` keeps those of held unknowns.
+void NodalMotion::accelerate_by(double t, Vector& force) {
+  evaluate_force(t, u, internal);
   force -= internal;
   trial_.setZero();
-  for (const Driven& end : driven_) trial_[end.unknown] = a[end.unknown];
+  correction_.setZero();
+  for (const Driven& one : driven_) {
+    trial_[one.unknown] = a[one.unknown];
+    correction_[one.unknown] = a[one.unknown] + damping_ * v[one.unknown];
+  }
   a = trial_;
   if (lumped.empty()) {
-    beam->momentum(a.data(), inertia_.data());
+    beam->momentum(correction_.data(), inertia_.data());
     force -= inertia_;
     beam->accelerate(force.data());
     a += force;
   } else {
     for (int i = 0; i < force.size(); ++i) a[i] += force[i] / lumped[i];
+    for (int i : beam->held()) a[i] = trial_[i];
   }
 }
 
-void NodalMotion::drive(double from, double t, double h, Vector& at_u, Vector& at_v, Vector& at_a) const {
+void NodalMotion::drive(double t, double h, Vector& at_u, Vector& at_v, Vector& at_a) const {
   for (int i : beam->held()) at_v[i] = at_a[i] = 0.0;
-  const double begin = snapped(from, h), end = snapped(t, h);
-  for (const Driven& by : driven_) {
-    const double rate = by.motion.rate_before(end);
-    at_u[by.unknown] = by.motion.value(end);
-    at_v[by.unknown] = rate;
-    at_a[by.unknown] =
-        (3.0 * rate - 4.0 * by.motion.rate_after(0.5 * (begin + end)) + by.motion.rate_after(begin)) /
-        (end - begin);
+  const double end = snapped(t, h);
+  for (const Driven& one : driven_) {
+    at_u[one.unknown] = one.motion.value(end);
+    at_v[one.unknown] = one.motion.rate_before(end);
+    at_a[one.unknown] = one.motion.acceleration_after(before(t, h));
   }
 }
 
@@ -107,32 +113,44 @@ double NodalMotion::size_of(const Vector& force) const {
   return std::sqrt(sum);
 }
 
-double NodalMotion::residual(const Stage& stage, const Vector& known, const Vector& at_a,
-                             const Vector& force) {
-  beam->momentum(at_a.data(), inertia_.data());
+double NodalMotion::residual(const Stage& stage, const Vector& start_v, const Vector& known,
+                             const Vector& at_a, const Vector& force) {
+  const double damped = stage.force * damping_;
+  residual_ = (stage.mass + damped * stage.rate) * at_a + damped * start_v;
+  beam->momentum(residual_.data(), inertia_.data());
   clear_held(inertia_);
-  inertia_ *= stage.mass;
   scale_ = std::max({size_of(inertia_), stage.force * size_of(force), stage.external_size});
   residual_ = inertia_ + stage.force * force + known;
   clear_held(residual_);
   return size_of(residual_);
 }
 
-bool NodalMotion::solve(const Stage& stage, const Vector& start, const Vector& known, Vector& at_a,
-                        Vector& at_u, Vector& force) {
+bool NodalMotion::solve(const Stage& stage, Vector& start_u, Vector& start_v, const Vector& known,
+                        Vector& at_u, Vector& at_v, Vector& at_a, Vector& force) {
+  at_u = u;
+  drive(stage.t, stage.h, at_u, at_v, at_a);
+  for (int i : beam->held()) {
+    start_u[i] = at_u[i] - stage.kappa * at_a[i];
+    start_v[i] = at_v[i] - stage.rate * at_a[i];
+  }
   guess_ = at_a;
-  if (newton(stage, start, known, at_a, at_u, force)) return true;
-  at_a.setZero();  // the stage without any acceleration
-  for (int i : beam->held()) at_a[i] = guess_[i];
-  return newton(stage, start, known, at_a, at_u, force);
+  if (!newton(stage, start_u, start_v, known, at_u, at_a, force)) {
+    at_a.setZero();  // the stage without any acceleration
+    for (int i : beam->held()) at_a[i] = guess_[i];
+    if (!newton(stage, start_u, start_v, known, at_u, at_a, force)) return false;
+  }
+  at_v = start_v + stage.rate * at_a;
+  drive(stage.t, stage.h, at_u, at_v, at_a);
+  return true;
 }
 
-bool NodalMotion::newton(const Stage& stage, const Vector& start, const Vector& known, Vector& at_a,
-                         Vector& at_u, Vector& force) {
+bool NodalMotion::newton(const Stage& stage, const Vector& start_u, const Vector& start_v,
+                         const Vector& known, Vector& at_u, Vector& at_a, Vector& force) {
+  const double t = before(stage.t, stage.h);
   const auto evaluate = [&] {
-    at_u = start + stage.kappa * at_a;
-    evaluate_force(at_u, force);
-    return residual(stage, known, at_a, force);
+    at_u = start_u + stage.kappa * at_a;
+    evaluate_force(t, at_u, force);
+    return residual(stage, start_v, known, at_a, force);
   };
   double size = evaluate();
   // Strains are differences of displacements, whose rounding grows with the way that the beam has gone.
@@ -142,7 +160,8 @@ bool NodalMotion::newton(const Stage& stage, const Vector& start, const Vector& 
     if (!std::isfinite(size)) return false;
     if (size <= std::max(tolerance_ * scale_, floor)) return true;
     if (!keep) {
-      beam->factorise(stage.mass, stage.force * stage.kappa, at_u.data());
+      beam->factorise(stage.mass + stage.force * damping_ * stage.rate, stage.force * stage.kappa, t,
+                      at_u.data());
       ++factorizations;
       fresh = true;
     }

@@ -1,6 +1,5 @@
 #pragma once
 #include <memory>
-#include <string_view>
 
 #include "integrators/beam/nodal_motion.hpp"
 
@@ -13,12 +12,6 @@ struct NodalScheme {
   template <BeamForm M>
   using State = Motion;
 
-  template <BeamForm M>
-  static std::string_view refusal(const M& model) {
-    return model.has_followers() || model.damping() != 0.0
-               ? "it takes forces of place and time only, neither followers nor damping"
-               : "";
-  }
   template <BeamForm M>
   static Motion start(const M& model, const typename M::State& state, const SchemeOptions& options = {}) {
     return Motion(std::make_unique<NodalBeamOf<M>>(model), state.u, state.v, options);

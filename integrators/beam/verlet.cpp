@@ -74,6 +74,7 @@ double stable_step(const NodalBeam& beam, const double* u, Mass mass) {
 VerletMotion::VerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
                            const SchemeOptions& options, Mass mass)
     : nodal(std::move(beam), std::move(u), std::move(v), options),
+      half_(nodal.u),
       stable_(stable_step(*nodal.beam, nodal.u.data(), mass)) {
   if (mass == Mass::lumped) nodal.lumped = nodal.beam->lumped_mass();
 }
@@ -86,12 +87,16 @@ std::string VerletMotion::caution(double h) const {
 Status VerletMotion::step(double t, double h) {
   nodal.begin(t, h);
   Eigen::VectorXd &u = nodal.u, &v = nodal.v, &a = nodal.a;
+  const double damping = nodal.beam->damping();
   v += 0.5 * h * a;
   u += h * v;
-  nodal.drive(t, t + h, h, u, v, a);
+  half_ = v;
+  nodal.drive(t + h, h, u, v, a);
   nodal.accelerate(t + h, h);
-  v += 0.5 * h * a;
-  nodal.drive(t, t + h, h, u, v, a);
+  // The rate at the end of the step is part of the damping there.
+  v = (half_ + 0.5 * h * a) / (1.0 + 0.5 * damping * h);
+  a -= damping * v;
+  nodal.drive(t + h, h, u, v, a);
   return Status::ok;
 }
 

@@ -23,7 +23,8 @@ class VerletMotion {
   NodalMotion nodal;
 
  private:
-  double stable_;  ///< at the start, s
+  Eigen::VectorXd half_;  ///< v in the middle of the step
+  double stable_;         ///< at the start, s
 };
 
 struct LumpedVerletMotion : VerletMotion {
@@ -69,7 +70,7 @@ struct BeamVerletConsistent : VerletScheme<ConsistentVerletMotion> {
           "the velocity form",
       .form = "beam",
       .stages = 1,
-      .orders = {{{"none", 2}, {"dead", 2}}},
+      .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_momentum = true,
   };

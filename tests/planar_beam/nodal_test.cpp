@@ -24,7 +24,10 @@ double spectral_radius(const AlphaParameters& p, double wh) {
 /// Relative error of what was factorised against dense matrices of finite differences of the force.
 template <int p>
 double factorisation_error() {
-  const PlanarBeam<p> model(soft_arm(3, 0.5));
+  Data data = soft_beam(3);
+  data.supports[1].spring = 0.3;
+  data.loads[0].follower = true;
+  const PlanarBeam<p> model(data);
   beam::NodalBeamOf<PlanarBeam<p>> nodal(model);
   const int n = model.unknowns();
   const Eigen::VectorXd u = random_values(n, 1.0, 3);
@@ -33,17 +36,17 @@ double factorisation_error() {
   for (int j = 0; j < n; ++j) {
     Eigen::VectorXd at = u, unit = Eigen::VectorXd::Unit(n, j);
     at[j] += 1e-6;
-    nodal.internal_force(at.data(), up.data());
+    nodal.internal_force(0.0, at.data(), up.data());
     at[j] -= 2e-6;
-    nodal.internal_force(at.data(), down.data());
+    nodal.internal_force(0.0, at.data(), down.data());
     nodal.momentum(unit.data(), mass.data());
     matrix.col(j) = 3.0 * mass + 0.7 * (up - down) / 2e-6;
   }
   const Eigen::VectorXd right = random_values(n, 1.0, 4);
   Eigen::VectorXd x = right;
-  nodal.factorise(3.0, 0.7, u.data());
+  nodal.factorise(3.0, 0.7, 0.0, u.data());
   const auto copy = nodal.clone();  // with what was factorised
-  nodal.factorise(1.0, 0.0, u.data());
+  nodal.factorise(1.0, 0.0, 0.0, u.data());
   copy->solve(x.data());
   for (int i : model.held()) CHECK(x[i] == 0.0);
   Eigen::VectorXd left = matrix * x - right;
