@@ -3,9 +3,11 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "integrators/beam/point_step.hpp"
+#include "models/planar_beam/assembled_chain.hpp"
 #include "models/planar_beam/element_chain.hpp"
 #include "models/planar_beam/statics.hpp"
 #include "src/scheme.hpp"
@@ -68,6 +70,8 @@ class Stepper {
         history[e * p + g] = {
             at.c * at.g1 + at.s * at.g2, at.c * at.g2 - at.s * at.g1, at.c, at.s, at.g1, at.g2, at.bending};
       }
+    if (options.linear_solver != LinearSolver::block)
+      assembled_.emplace(options.linear_solver, p, model.elements(), model.held());
     for (int i : model.held())
       if (const planar_beam::Motion* motion = model.prescribed(i)) driven_.push_back({i, *motion});
     length_ = model.data().length;
@@ -192,8 +196,16 @@ class Stepper {
   /// The consistent tangent at the mean velocity that was evaluated last, with the inertia term
   /// (2/h) int rho_A P_i P_j dx; factorised.
   [[gnu::noinline]] void linearise(const M& model, double h) {
-    for (int e = 0; e < model.elements(); ++e) chain_.add(e, element_tangent(model, e, h));
-    chain_.factorise();
+    for (int e = 0; e < model.elements(); ++e) {
+      if (assembled_)
+        assembled_->add(e, element_tangent(model, e, h).data());
+      else
+        chain_.add(e, element_tangent(model, e, h));
+    }
+    if (assembled_)
+      assembled_->factorise();
+    else
+      chain_.factorise();
     ++factorizations;
   }
   typename ElementChain<p>::Matrix element_tangent(const M& model, int e, double h) const {
@@ -222,7 +234,10 @@ class Stepper {
   /// Solves for the correction of `mean` with the tangent that was factorised last.
   [[gnu::noinline]] const Vector& correct() {
     correction_ = -residual_;
-    chain_.solve(correction_.data());
+    if (assembled_)
+      assembled_->solve(correction_.data());
+    else
+      chain_.solve(correction_.data());
     ++iterations;
     return correction_;
   }
@@ -429,6 +444,7 @@ class Stepper {
   }
 
   ElementChain<p> chain_;
+  std::optional<planar_beam::AssembledChain> assembled_;  ///< where another solver is asked for
   std::vector<Point> points_;
   std::vector<Driven> driven_;
   Vector external_, internal_, inertia_, residual_, correction_, trial_;
