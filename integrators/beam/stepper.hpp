@@ -341,7 +341,8 @@ class Stepper {
   double threshold() const { return std::max(tolerance_ * scale_, floor()); }
 
   /// A start for Newton's iteration from the mean velocities of the last steps, which unlike v carry no
-  /// oscillation of period 2 h.
+  /// oscillation of period 2 h; where stiff modes do oscillate, from the last one alone, which amplifies
+  /// nothing.
   void extrapolate(double h) {
     const int usable = h == past_step ? known : 0;
     if (usable == 3)
@@ -350,10 +351,10 @@ class Stepper {
       mean = 2.0 * past[0] - past[1];
     else
       mean = v;
-    // Where v_n has been the better start lately, the other is tried only now and then.
+    // Where the last one has been the better start lately, the other is tried only now and then.
     if (usable >= 2 && plain_ > 0) {
       --plain_;
-      mean = v;
+      mean = past[0];
     }
     extrapolated_ = usable >= 2 && plain_ == 0;
   }
@@ -365,7 +366,7 @@ class Stepper {
     double size = evaluate(model, h);
     if (extrapolated_ && !(size <= 1e-2 * scale_)) {
       trial_ = mean;
-      mean = v;
+      mean = past[0];
       drive(h);
       const double plain = evaluate(model, h);
       if (size < plain) {
@@ -450,7 +451,7 @@ class Stepper {
   Vector external_, internal_, inertia_, residual_, correction_, trial_;
   double time_ = 0.0, middle_ = 0.0;
   bool extrapolated_ = false;
-  int plain_ = 0;  ///< steps for which Newton starts from v_n
+  int plain_ = 0;  ///< steps for which Newton starts from the last mean velocity
   double tolerance_, kept_while_, scale_ = 0.0, length_ = 1.0;
   double force_floor_ = 0.0, mass_floor_ = 0.0, inertia_floor_ = 0.0;
 };
