@@ -76,6 +76,13 @@ struct Peer {
   double (*run)(const void* model, double t_end, double tol, std::vector<double>& state, long& evaluations);
 };
 
+/// A part of a model's steps that is timed by itself, one cell of a table: `variant` of it at a size.
+struct PartTask {
+  std::string_view model, part, variant, size_name;
+  int size, index;
+  double (*run)(int index, int size);  ///< thread CPU seconds; not finite on failure
+};
+
 /// An adaptive integrator that references of stiff motions are made with, and its tolerances.
 struct ReferenceSolver {
   std::string_view integrator;
@@ -101,6 +108,7 @@ struct Catalogue {
   std::vector<Library> libraries;
   std::vector<Yardstick> yardsticks;
   std::vector<Peer> peers;
+  std::vector<PartTask> parts;
   std::vector<ReferenceSolver> reference_solvers;  ///< independent of one another
   std::vector<std::string> study_files;            ///< what `bench` does with each model
   /// Number of model types of a model, to tell whether a scheme runs all of them.

@@ -28,11 +28,20 @@ constexpr std::string_view to_string(Stepping stepping) {
   return "";
 }
 
+/// What solves the linear systems of beam schemes: elimination of the chain's blocks, or solvers that know
+/// less of it, to be compared with.
+enum class LinearSolver { block, band, klu, sparselu };
+inline constexpr std::array<std::string_view, 4> linear_solver_names{"block", "band", "klu", "sparselu"};
+constexpr std::string_view to_string(LinearSolver solver) {
+  return linear_solver_names[static_cast<std::size_t>(solver)];
+}
+
 /// What a user may tell a scheme of equal steps; each takes what concerns it.
 struct SchemeOptions {
   double newton_tol = 1e-10;              ///< of nonlinear equations, relative residual
   std::optional<double> spectral_radius;  ///< at infinite frequency; none: the scheme's own default
   bool modified_newton = false;           ///< one tangent a step for as long as it serves
+  LinearSolver linear_solver = LinearSolver::block;
 };
 
 /// The order of the error of a scheme on models of one load class.

@@ -3,6 +3,7 @@
 #include "integrators/beam/bathe.hpp"
 #include "integrators/beam/energy_momentum_4.hpp"
 #include "integrators/beam/generalized_alpha.hpp"
+#include "integrators/beam/linear_solvers.hpp"
 #include "integrators/beam/midpoint.hpp"
 #include "integrators/beam/mixed_midpoint.hpp"
 #include "integrators/beam/stander_stein.hpp"
@@ -25,6 +26,8 @@ void add_beam_schemes(Catalogue& catalogue) {
                                                BeamBathe,                   //
                                                BeamVerlet,                  //
                                                BeamVerletConsistent>{});
+  const std::vector<PartTask> tasks = linear_solver_tasks();
+  catalogue.parts.insert(catalogue.parts.end(), tasks.begin(), tasks.end());
 }
 
 }  // namespace gnomon

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "integrators/beam/point_step.hpp"
+#include "models/planar_beam/assembled_chain.hpp"
 #include "models/planar_beam/element_chain.hpp"
 #include "models/planar_beam/statics.hpp"
 #include "src/scheme.hpp"
@@ -68,6 +70,8 @@ class Stepper {
         history[e * p + g] = {
             at.c * at.g1 + at.s * at.g2, at.c * at.g2 - at.s * at.g1, at.c, at.s, at.g1, at.g2, at.bending};
       }
+    if (options.linear_solver != LinearSolver::block)
+      assembled_.emplace(options.linear_solver, p, model.elements(), model.held());
     for (int i : model.held())
       if (const planar_beam::Motion* motion = model.prescribed(i)) driven_.push_back({i, *motion});
     length_ = model.data().length;
@@ -192,8 +196,16 @@ class Stepper {
   /// The consistent tangent at the mean velocity that was evaluated last, with the inertia term
   /// (2/h) int rho_A P_i P_j dx; factorised.
   [[gnu::noinline]] void linearise(const M& model, double h) {
-    for (int e = 0; e < model.elements(); ++e) chain_.add(e, element_tangent(model, e, h));
-    chain_.factorise();
+    for (int e = 0; e < model.elements(); ++e) {
+      if (assembled_)
+        assembled_->add(e, element_tangent(model, e, h).data());
+      else
+        chain_.add(e, element_tangent(model, e, h));
+    }
+    if (assembled_)
+      assembled_->factorise();
+    else
+      chain_.factorise();
     ++factorizations;
   }
   typename ElementChain<p>::Matrix element_tangent(const M& model, int e, double h) const {
@@ -222,7 +234,10 @@ class Stepper {
   /// Solves for the correction of `mean` with the tangent that was factorised last.
   [[gnu::noinline]] const Vector& correct() {
     correction_ = -residual_;
-    chain_.solve(correction_.data());
+    if (assembled_)
+      assembled_->solve(correction_.data());
+    else
+      chain_.solve(correction_.data());
     ++iterations;
     return correction_;
   }
@@ -326,7 +341,8 @@ class Stepper {
   double threshold() const { return std::max(tolerance_ * scale_, floor()); }
 
   /// A start for Newton's iteration from the mean velocities of the last steps, which unlike v carry no
-  /// oscillation of period 2 h.
+  /// oscillation of period 2 h; where stiff modes do oscillate, from the last one alone, which amplifies
+  /// nothing.
   void extrapolate(double h) {
     const int usable = h == past_step ? known : 0;
     if (usable == 3)
@@ -335,10 +351,10 @@ class Stepper {
       mean = 2.0 * past[0] - past[1];
     else
       mean = v;
-    // Where v_n has been the better start lately, the other is tried only now and then.
+    // Where the last one has been the better start lately, the other is tried only now and then.
     if (usable >= 2 && plain_ > 0) {
       --plain_;
-      mean = v;
+      mean = past[0];
     }
     extrapolated_ = usable >= 2 && plain_ == 0;
   }
@@ -350,7 +366,7 @@ class Stepper {
     double size = evaluate(model, h);
     if (extrapolated_ && !(size <= 1e-2 * scale_)) {
       trial_ = mean;
-      mean = v;
+      mean = past[0];
       drive(h);
       const double plain = evaluate(model, h);
       if (size < plain) {
@@ -429,12 +445,13 @@ class Stepper {
   }
 
   ElementChain<p> chain_;
+  std::optional<planar_beam::AssembledChain> assembled_;  ///< where another solver is asked for
   std::vector<Point> points_;
   std::vector<Driven> driven_;
   Vector external_, internal_, inertia_, residual_, correction_, trial_;
   double time_ = 0.0, middle_ = 0.0;
   bool extrapolated_ = false;
-  int plain_ = 0;  ///< steps for which Newton starts from v_n
+  int plain_ = 0;  ///< steps for which Newton starts from the last mean velocity
   double tolerance_, kept_while_, scale_ = 0.0, length_ = 1.0;
   double force_floor_ = 0.0, mass_floor_ = 0.0, inertia_floor_ = 0.0;
 };

@@ -276,6 +276,7 @@ class Study {
       tables.push_back(wrapper_table(study));
       tables.back().notes.push_back(sundials_line(context_.catalogue));
     }
+    if (!study.parts.empty()) tables.push_back(parts_table(study));
     publish({model + "-speed", "Speed: " + model, "", tables, {}, {}}, document);
     return true;
   }

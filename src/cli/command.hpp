@@ -24,7 +24,7 @@ struct Request {
   std::vector<std::string> scenes;
   std::vector<std::string> what;  ///< of `list`, `survey` and `report`
   std::string integrators, step, steps, tol, tols, t_end, samples, max_steps, time_limit, newton_tol,
-      spectral_radius;
+      spectral_radius, linear_solver;
   std::vector<std::string> set;
   std::string refine;      ///< of `converge`
   std::string vary;        ///< of `stability`, `compare` and `drift`

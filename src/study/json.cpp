@@ -92,7 +92,8 @@ Json cpu_json(const std::optional<TimingStats>& timing) {
 Json options_json(const SchemeOptions& options) {
   return {{"newton_tol", options.newton_tol},
           {"spectral_radius", optional(options.spectral_radius)},
-          {"modified_newton", options.modified_newton}};
+          {"modified_newton", options.modified_newton},
+          {"linear_solver", to_string(options.linear_solver)}};
 }
 
 Json run_json(const Scene& scene, const Row& row) {

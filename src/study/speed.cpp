@@ -61,6 +61,22 @@ WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
   return time;
 }
 
+void measure_parts(Runner& runner, const std::vector<Scene>& scenes, const TimingPlan& plan,
+                   std::vector<PartTime>& parts) {
+  std::vector<TimedTask> tasks;
+  std::vector<std::string> names;
+  for (const PartTask& task : runner.catalogue().parts) {
+    const auto is_of = [&](const Scene& scene) { return scene.model_name == task.model; };
+    if (std::none_of(scenes.begin(), scenes.end(), is_of)) continue;
+    parts.push_back({&task, {}});
+    names.push_back(fmt::format("{}: {}, {} {}", task.part, task.variant, task.size, task.size_name));
+    tasks.push_back({[&task] { return task.run(task.index, task.size); }});
+  }
+  if (tasks.empty()) return;
+  const auto stats = runner.time("part times", {}, names, tasks, plan);
+  for (std::size_t k = 0; k < parts.size(); ++k) parts[k].run = stats[k];
+}
+
 std::string unstable_mark(const TimingStats& stats) { return stats.unstable ? "*" : ""; }
 
 }  // namespace
@@ -124,6 +140,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
   };
   for (const Yardstick& yardstick : runner.catalogue().yardsticks)
     if (is_planned(yardstick)) study.wrappers.push_back(measure(runner, yardstick));
+  measure_parts(runner, scenes, plan, study.parts);
   return study;
 }
 
@@ -206,6 +223,28 @@ output::Table wrapper_table(const SpeedStudy& study) {
   return table;
 }
 
+output::Table parts_table(const SpeedStudy& study) {
+  output::Table table;
+  const std::string part(study.parts.front().task->part);
+  table.caption = fmt::format("Time of one factorisation and solution, by {}", part);
+  table.columns = {{"variant", part, output::Align::left}};
+  for (const PartTime& time : study.parts) {
+    const std::string key = fmt::format("us_{}", time.task->size);
+    const auto has = [&](const output::Column& column) { return column.key == key; };
+    if (std::none_of(table.columns.begin(), table.columns.end(), has))
+      table.columns.push_back({key, fmt::format("{} {} [us]", time.task->size, time.task->size_name)});
+    if (table.rows.empty() || table.rows.back().front().text != time.task->variant)
+      table.rows.push_back({std::string(time.task->variant)});
+    output::Cell median = output::number_cell(1e6 * time.run.median, 3);
+    median.text += unstable_mark(time.run);
+    table.rows.back().push_back(median);
+  }
+  table.notes.push_back(
+      "medians, interleaved, one core; the pattern analysed beforehand, the same pivots where "
+      "they serve; * repetitions differ by more than 5 %");
+  return table;
+}
+
 nlohmann::ordered_json speed_json(const SpeedStudy& study) {
   nlohmann::ordered_json json;
   for (const StepTime& time : study.steps)
@@ -219,6 +258,13 @@ nlohmann::ordered_json speed_json(const SpeedStudy& study) {
          {"ns_median", time.ns()},
          {"repetitions", time.run.repetitions},
          {"unstable", time.run.unstable}});
+  for (const PartTime& time : study.parts)
+    json["parts"].push_back({{"part", time.task->part},
+                             {"variant", time.task->variant},
+                             {"size", time.task->size},
+                             {"us_median", 1e6 * time.run.median},
+                             {"repetitions", time.run.repetitions},
+                             {"unstable", time.run.unstable}});
   for (const WrapperTime& time : study.wrappers)
     json["wrappers"].push_back({{"integrator", time.yardstick->integrator},
                                 {"plain", time.yardstick->name},

@@ -32,9 +32,16 @@ struct WrapperTime {
   double ratio() const { return wrapped.median / plain.median; }
 };
 
+/// A part of a step, timed by itself.
+struct PartTime {
+  const PartTask* task;
+  TimingStats run;  ///< s
+};
+
 struct SpeedStudy {
   std::vector<StepTime> steps;
   std::vector<WrapperTime> wrappers;
+  std::vector<PartTime> parts;
 };
 
 /// Steps of the named integrators, or of all.
@@ -43,6 +50,8 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
 
 output::Table step_times_table(const SpeedStudy& study);
 output::Table wrapper_table(const SpeedStudy& study);
+/// Variants by sizes.
+output::Table parts_table(const SpeedStudy& study);
 nlohmann::ordered_json speed_json(const SpeedStudy& study);
 
 }  // namespace gnomon

@@ -67,7 +67,8 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {run_of("s.toml", {"--smaples", "3"}), "run: found the unknown option '--smaples', expected --samples"},
       {run_of("s.toml", {"-x"}),
        "run: found the unknown option '-x', expected one of --integrator, --step, --tol, --t-end, --set, "
-       "--max-steps, --time-limit, --newton-tol, --spectral-radius, --modified-newton, --samples, --json, "
+       "--max-steps, --time-limit, --newton-tol, --spectral-radius, --modified-newton, --linear-solver, "
+       "--samples, --json, "
        "--csv, --out, --no-reference, "
        "--no-timing, "
        "--quiet, "
@@ -186,6 +187,8 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
        "--spectral-radius: found '0.4', expected 0.5 to 1 for beam-hht"},
       {{"converge", "soft-beam", "--integrators", "beam-hht", "--modified-newton=1"},
        "--modified-newton: found the value '1', expected none"},
+      {{"converge", "soft-beam", "--integrators", "beam-midpoint", "--linear-solver", "lapack"},
+       "--linear-solver: found 'lapack', expected block, band, klu or sparselu"},
       // Files.
       {run_of("s.toml", {"--json", "none/a.json"}),
        "--json: found 'none/a.json', expected a file in a folder that exists"},

@@ -8,7 +8,8 @@ const Kernels* kernels(InstructionSet set) {
 
 const Kernels* fitting_kernels(int elements) {
   for (const InstructionSet set : {InstructionSet::avx512, InstructionSet::avx2})
-    if (const Kernels* found = kernels(set); found && elements >= found->lanes) return found;
+    if (const Kernels* found = kernels(set); found && elements >= (found->lanes > 4 ? 1 : 3) * found->lanes)
+      return found;
   return elements >= 2 ? &paired_kernels() : nullptr;
 }
 

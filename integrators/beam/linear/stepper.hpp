@@ -19,7 +19,9 @@ class FastStepper {
               const Kernels* kernels = nullptr)
       : general_(model, state, options) {
     if (!kernels) kernels = fitting_kernels(model.elements());
-    if (!kernels || model.elements() < kernels->lanes || options.modified_newton) return;
+    if (!kernels || model.elements() < kernels->lanes || options.modified_newton ||
+        options.linear_solver != LinearSolver::block)
+      return;
     if (model.has_springs() || model.has_followers() || model.damping() != 0.0) return;
     const planar_beam::CrossSection& C = model.section();
     Beam beam{model.elements(),

@@ -1,0 +1,216 @@
+#include "models/planar_beam/assembled_chain.hpp"
+
+#include <klu.h>
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace gnomon::planar_beam {
+namespace {
+
+using Starts = std::vector<long>;
+
+/// LU factors of a band matrix with exchanges of rows, column by column, as LAPACK's dgbtrf stores them: an
+/// entry (i, j) at row `upper + lower + i - j` of column j.
+class Band final : public Factorisation {
+ public:
+  Band(const Starts& start, const std::vector<long>& row)
+      : start_(start), row_(row), size_(static_cast<int>(start.size()) - 1) {
+    for (int j = 0; j < size_; ++j)
+      for (long k = start[j]; k < start[j + 1]; ++k)
+        lower_ = std::max(lower_, std::abs(static_cast<int>(row[k]) - j));
+    width_ = 3 * lower_ + 1;
+    band_.resize(static_cast<std::size_t>(width_) * size_);
+    pivot_.resize(size_);
+  }
+  bool factorise(const std::vector<double>& values) override {
+    std::fill(band_.begin(), band_.end(), 0.0);
+    for (int j = 0; j < size_; ++j)
+      for (long k = start_[j]; k < start_[j + 1]; ++k) at(static_cast<int>(row_[k]), j) = values[k];
+    for (int j = 0; j < size_; ++j) {
+      const int last = std::min(size_ - 1, j + lower_);
+      int pivot = j;
+      for (int i = j + 1; i <= last; ++i)
+        if (std::abs(at(i, j)) > std::abs(at(pivot, j))) pivot = i;
+      pivot_[j] = pivot;
+      if (!(std::abs(at(pivot, j)) > 0.0)) return false;
+      const int right = std::min(size_ - 1, j + 2 * lower_);
+      if (pivot != j)
+        for (int k = j; k <= right; ++k) std::swap(at(j, k), at(pivot, k));
+      const double inverse = 1.0 / at(j, j);
+      for (int i = j + 1; i <= last; ++i) at(i, j) *= inverse;
+      for (int k = j + 1; k <= right; ++k) {
+        const double factor = at(j, k);
+        if (factor == 0.0) continue;
+        for (int i = j + 1; i <= last; ++i) at(i, k) -= at(i, j) * factor;
+      }
+    }
+    return true;
+  }
+  void solve(double* x) override {
+    for (int j = 0; j < size_; ++j) {
+      std::swap(x[j], x[pivot_[j]]);
+      for (int i = j + 1; i <= std::min(size_ - 1, j + lower_); ++i) x[i] -= at(i, j) * x[j];
+    }
+    for (int j = size_ - 1; j >= 0; --j) {
+      x[j] /= at(j, j);
+      for (int i = std::max(0, j - 2 * lower_); i < j; ++i) x[i] -= at(i, j) * x[j];
+    }
+  }
+
+ private:
+  double& at(int i, int j) {
+    return band_[static_cast<std::size_t>(width_) * j + static_cast<std::size_t>(2 * lower_ + i - j)];
+  }
+  Starts start_;
+  std::vector<long> row_;
+  int size_, lower_ = 0, width_ = 0;
+  std::vector<double> band_;
+  std::vector<int> pivot_;
+};
+
+/// SuiteSparse KLU. The pattern is analysed once and the first pivots are kept while they serve (T.A. Davis,
+/// E. Palamadai Natarajan, ACM Trans. Math. Softw. 37 (2010) 36).
+class Klu final : public Factorisation {
+ public:
+  Klu(const Starts& start, const std::vector<long>& row) : start_(start), row_(row) {
+    klu_l_defaults(&common_);
+    symbolic_ = klu_l_analyze(size(), start_.data(), row_.data(), &common_);
+    if (!symbolic_) throw std::runtime_error("KLU: no analysis of the pattern");
+  }
+  Klu(const Klu&) = delete;
+  Klu& operator=(const Klu&) = delete;
+  ~Klu() override {
+    klu_l_free_numeric(&numeric_, &common_);
+    klu_l_free_symbolic(&symbolic_, &common_);
+  }
+  bool factorise(const std::vector<double>& values) override {
+    double* entries = const_cast<double*>(values.data());  // KLU does not change them
+    if (numeric_ && klu_l_refactor(start_.data(), row_.data(), entries, symbolic_, numeric_, &common_) &&
+        klu_l_rgrowth(start_.data(), row_.data(), entries, symbolic_, numeric_, &common_) &&
+        common_.rgrowth > 1e-6)
+      return true;
+    klu_l_free_numeric(&numeric_, &common_);
+    numeric_ = klu_l_factor(start_.data(), row_.data(), entries, symbolic_, &common_);
+    return numeric_ != nullptr;
+  }
+  void solve(double* x) override { klu_l_solve(symbolic_, numeric_, size(), 1, x, &common_); }
+
+ private:
+  long size() const { return static_cast<long>(start_.size()) - 1; }
+  Starts start_;
+  std::vector<long> row_;
+  klu_l_common common_{};
+  klu_l_symbolic* symbolic_ = nullptr;
+  klu_l_numeric* numeric_ = nullptr;
+};
+
+/// Eigen's SparseLU; it allocates in each factorisation.
+class SparseLu final : public Factorisation {
+ public:
+  SparseLu(const Starts& start, const std::vector<long>& row)
+      : matrix_(static_cast<int>(start.size()) - 1, static_cast<int>(start.size()) - 1) {
+    matrix_.resizeNonZeros(static_cast<int>(row.size()));
+    for (std::size_t j = 0; j < start.size(); ++j) matrix_.outerIndexPtr()[j] = static_cast<int>(start[j]);
+    for (std::size_t k = 0; k < row.size(); ++k) matrix_.innerIndexPtr()[k] = static_cast<int>(row[k]);
+    std::fill(matrix_.valuePtr(), matrix_.valuePtr() + row.size(), 1.0);
+    lu_.analyzePattern(matrix_);
+  }
+  bool factorise(const std::vector<double>& values) override {
+    std::copy(values.begin(), values.end(), matrix_.valuePtr());
+    lu_.factorize(matrix_);
+    return lu_.info() == Eigen::Success;
+  }
+  void solve(double* x) override {
+    Eigen::Map<Eigen::VectorXd> right(x, matrix_.rows());
+    right = Eigen::VectorXd(lu_.solve(right));
+  }
+
+ private:
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> lu_;
+};
+
+}  // namespace
+
+AssembledChain::AssembledChain(LinearSolver solver, int order, int elements, std::vector<int> held)
+    : kind_(solver), order_(order), elements_(elements), held_(std::move(held)) {
+  const int size = 3 * (order * elements + 1), width = 3 * (order + 1);
+  const auto is_held = [&](int i) { return std::find(held_.begin(), held_.end(), i) != held_.end(); };
+  // Columns that belong to one element couple with its rows, those of a shared node with both elements'.
+  column_start_.push_back(0);
+  for (int j = 0; j < size; ++j) {
+    const int node = j / 3, first = std::max(0, (node - 1) / order),
+              last = std::min(node / order, elements - 1);
+    for (int i = 3 * order * first; i < 3 * order * last + width; ++i)
+      if (i == j || !(is_held(i) || is_held(j))) row_.push_back(i);
+    column_start_.push_back(static_cast<long>(row_.size()));
+  }
+  for (int e = 0; e < elements; ++e)
+    for (int j = 0; j < width; ++j)
+      for (int i = 0; i < width; ++i) {
+        const int to_row = 3 * order * e + i, to_column = 3 * order * e + j;
+        if (is_held(to_row) || is_held(to_column)) {
+          slot_.push_back(-1);
+          continue;
+        }
+        const auto begin = row_.begin() + column_start_[to_column];
+        slot_.push_back(static_cast<int>(std::find(begin, row_.end(), to_row) - row_.begin()));
+      }
+  values_.resize(row_.size());
+  make_solver();
+}
+AssembledChain::AssembledChain(const AssembledChain& other)
+    : kind_(other.kind_),
+      order_(other.order_),
+      elements_(other.elements_),
+      held_(other.held_),
+      column_start_(other.column_start_),
+      row_(other.row_),
+      slot_(other.slot_),
+      values_(other.values_) {
+  make_solver();
+  if (other.regular_) factorise();
+}
+AssembledChain& AssembledChain::operator=(const AssembledChain& other) {
+  if (this != &other) *this = AssembledChain(other);
+  return *this;
+}
+
+void AssembledChain::make_solver() {
+  switch (kind_) {
+    case LinearSolver::klu:
+      solver_ = std::make_unique<Klu>(column_start_, row_);
+      return;
+    case LinearSolver::sparselu:
+      solver_ = std::make_unique<SparseLu>(column_start_, row_);
+      return;
+    default:
+      solver_ = std::make_unique<Band>(column_start_, row_);
+  }
+}
+
+void AssembledChain::add(int e, const double* matrix) {
+  if (e == 0) {
+    std::fill(values_.begin(), values_.end(), 0.0);
+    for (int i : held_) values_[column_start_[i]] = 1.0;
+  }
+  const int count = 9 * (order_ + 1) * (order_ + 1);
+  const int* slot = slot_.data() + static_cast<std::ptrdiff_t>(e) * count;
+  for (int k = 0; k < count; ++k)
+    if (slot[k] >= 0) values_[slot[k]] += matrix[k];
+}
+void AssembledChain::factorise() { regular_ = solver_->factorise(values_); }
+void AssembledChain::solve(double* values) const {
+  for (int i : held_) values[i] = 0.0;
+  if (regular_)
+    solver_->solve(values);
+  else
+    std::fill(values, values + column_start_.size() - 1, std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace gnomon::planar_beam
