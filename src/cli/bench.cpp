@@ -97,7 +97,8 @@ class Study {
       std::string shown = content.substr(0, content.find("**Runs**"));
       if (const std::size_t table = shown.find("**"); table != std::string::npos) shown = shown.substr(table);
       // Of these the first table is enough.
-      if (part.name.ends_with("-survey") || part.name.starts_with("steps-")) shown = shown.substr(0, shown.find("\n**", 2) + 1);
+      if (part.name.ends_with("-survey") || part.name.starts_with("steps-"))
+        shown = shown.substr(0, shown.find("\n**", 2) + 1);
       text = replace_section(text, part.name, shown);
     }
     output::write_file_atomically(path, text);
