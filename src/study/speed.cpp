@@ -122,6 +122,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
     }
   };
   for (const SpeedPlan& plan : plans) {
+    if (quick && plan.full_only) continue;
     if (plan.instructions_key.empty()) {
       add(plan, "");
     } else {

@@ -52,7 +52,7 @@ StudyPlan read_study(const std::string& path) {
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](Section& section) {
-    section.only({"scene", "step", "steps", "parts", "newton_tol", "set", "instructions_key"});
+    section.only({"scene", "step", "steps", "parts", "newton_tol", "set", "instructions_key", "full_only"});
     SpeedPlan speed{section.text("scene", "a scene's name"),
                     section.positive("step", "a positive number (s)")};
     if (section.has("steps")) speed.steps = section.integer("steps", 1, 100'000'000, "a number of steps");
@@ -60,6 +60,7 @@ StudyPlan read_study(const std::string& path) {
     if (section.has("newton_tol")) speed.newton_tol = section.positive("newton_tol", "a tolerance");
     speed.set = section.texts("set", "texts key.path=value");
     speed.instructions_key = section.text_or("instructions_key", "", "a key of the scene");
+    speed.full_only = section.flag("full_only");
     plan.speed.push_back(std::move(speed));
   });
   each("survey", [&](Section& section) {

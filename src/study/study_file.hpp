@@ -23,6 +23,7 @@ struct SpeedPlan {
   double newton_tol = 1e-10;
   /// A key of the scene that chooses the vector instructions: every set that the machine has is timed.
   std::string instructions_key{};
+  bool full_only = false;  ///< left out of a quick study
 };
 
 /// One class of scenes in the survey of a model.

@@ -69,5 +69,5 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
         "3: speed[0].step: found -1, expected a positive number (s)");
   CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = 1\ntol = 1\n") ==
         "4: speed[0].tol: found an unknown key, expected one of scene, step, steps, parts, newton_tol, set, "
-        "instructions_key");
+        "instructions_key, full_only");
 }
