@@ -159,10 +159,10 @@ class Study {
     const Comparison study = compare(runner_, scene, options, progress);
     if (study.interrupted) return false;
     Document document(context_.catalogue, "bench");
-    document.add(study);
+    document.add_comparison(study);
     output::Table costs = costs_table(study);
     costs.notes.push_back(sundials_line(context_.catalogue));
-    write_study(folder_, "compare-" + scene.name, {costs, runs_table(study, "Runs")}, document,
+    write_study(folder_, "compare-" + scene.name, {costs, comparison_table(study, "Runs")}, document,
                 work_precision_figure(context_.catalogue, study), command("compare " + scene.name, options));
     return true;
   }

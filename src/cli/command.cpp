@@ -14,6 +14,7 @@
 
 #include "src/error.hpp"
 #include "src/output/files.hpp"
+#include "src/output/latex.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -185,8 +186,12 @@ void check_outputs(const Request& request) {
   };
   check_file("--json", request.json);
   check_file("--csv", request.csv);
+  check_file("--latex", request.latex);
   if (!request.json.empty() && request.json == request.csv)
     throw UsageError(fmt::format("--csv: found '{}' as in --json, expected another file", request.csv));
+  for (const auto& [option, name] : {std::pair{"--json", request.json}, {"--csv", request.csv}})
+    if (!name.empty() && name == request.latex)
+      throw UsageError(fmt::format("--latex: found '{}' as in {}, expected another file", name, option));
   if (request.out.empty()) return;
   // Folders that are not there are made in the first one above them that is.
   std::error_code code;
@@ -200,13 +205,13 @@ void check_outputs(const Request& request) {
 }
 
 void say(const Request& request, const std::string& line) {
-  if (request.json != "-" && request.csv != "-") fmt::print("{}\n", line);
+  if (request.json != "-" && request.csv != "-" && request.latex != "-") fmt::print("{}\n", line);
 }
 
 void show(const Request& request, const output::Table& table) { say(request, output::to_text(table)); }
 
-void write_outputs(const Request& request, const Document& document,
-                   const std::vector<output::Table>& tables) {
+void write_outputs(const Request& request, const Document& document, const std::vector<output::Table>& tables,
+                   const std::vector<output::Table>& further) {
   const auto write = [](const std::string& name, const std::string& text) {
     if (name.empty()) return;
     if (name == "-")
@@ -218,6 +223,9 @@ void write_outputs(const Request& request, const Document& document,
   std::string csv;
   for (const output::Table& table : tables) csv += (csv.empty() ? "" : "\n") + output::to_csv(table);
   write(request.csv, csv);
+  std::vector<output::Table> all = tables;
+  all.insert(all.end(), further.begin(), further.end());
+  write(request.latex, output::latex_document(all));
   flush_output();
 }
 

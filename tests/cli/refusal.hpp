@@ -47,7 +47,8 @@ inline std::string model_names() {
   return one_of(names);
 }
 
-inline const std::string commands = "one of list, run, converge, compare, drift, stability, survey, bench, doctor";
+inline const std::string commands =
+    "one of list, run, converge, compare, drift, stability, survey, bench, doctor";
 inline const std::string name_text =
     "a name in quotes: at most 100 letters, digits, - _ and . that begin with a letter or digit";
 inline const std::string inertia_text = "three positive numbers (principal moments, kg m^2)";
