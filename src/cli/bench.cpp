@@ -200,13 +200,13 @@ class Study {
     const Comparison study = compare(runner_, scene, options, progress);
     if (study.interrupted) return false;
     Document document = new_document();
-    document.add(study);
+    document.add_comparison(study);
     output::Table costs = costs_table(study);
     costs.notes.push_back(sundials_line(context_.catalogue));
     publish({"compare-" + scene.name,
              "Work and precision: " + scene.name,
              command("compare " + scene.name, options),
-             {costs, runs_table(study, "Runs")},
+             {costs, comparison_table(study, "Runs")},
              work_precision_figure(context_.catalogue, study),
              {}},
             document);

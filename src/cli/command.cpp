@@ -14,6 +14,7 @@
 
 #include "src/error.hpp"
 #include "src/output/files.hpp"
+#include "src/output/latex.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -207,8 +208,12 @@ void check_outputs(const Request& request) {
   };
   check_file("--json", request.json);
   check_file("--csv", request.csv);
+  check_file("--latex", request.latex);
   if (!request.json.empty() && request.json == request.csv)
     throw UsageError(fmt::format("--csv: found '{}' as in --json, expected another file", request.csv));
+  for (const auto& [option, name] : {std::pair{"--json", request.json}, {"--csv", request.csv}})
+    if (!name.empty() && name == request.latex)
+      throw UsageError(fmt::format("--latex: found '{}' as in {}, expected another file", name, option));
   if (request.out.empty()) return;
   // Folders that are not there are made in the first one above them that is.
   std::error_code code;
@@ -222,15 +227,18 @@ void check_outputs(const Request& request) {
 }
 
 void say(const Request& request, const std::string& line) {
-  if (request.json != "-" && request.csv != "-") fmt::print("{}\n", line);
+  if (request.json != "-" && request.csv != "-" && request.latex != "-") fmt::print("{}\n", line);
 }
 
 void show(const Request& request, const output::Table& table) { say(request, output::to_text(table)); }
 
-void write_outputs(const Request& request, const Document& document,
-                   const std::vector<output::Table>& tables) {
+void write_outputs(const Request& request, const Document& document, const std::vector<output::Table>& tables,
+                   const std::vector<output::Table>& further) {
   write_text(request.json, document.text());
   write_csv(request, tables);
+  std::vector<output::Table> all = tables;
+  all.insert(all.end(), further.begin(), further.end());
+  write_text(request.latex, output::latex_document(all));
 }
 
 void write_json(const Request& request, const nlohmann::ordered_json& json) {

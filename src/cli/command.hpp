@@ -31,7 +31,7 @@ struct Request {
   std::string max_drift;   ///< of `stability`
   std::string load_steps;  ///< of `static`
   std::string study;       ///< of `bench`
-  std::string json, csv, out;
+  std::string json, csv, latex, out;
   bool modified_newton = false, arc_length = false;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
 };
@@ -63,12 +63,12 @@ std::vector<std::string> split(const std::string& text);
 
 /// Refuses output files that could not be written, before anything runs.
 void check_outputs(const Request& request);
-/// Prints a table unless standard output is taken by JSON or --quiet.
+/// Prints a table unless standard output is taken by a file.
 void show(const Request& request, const output::Table& table);
 void say(const Request& request, const std::string& line);
-/// Writes --json and --csv where asked for.
-void write_outputs(const Request& request, const Document& document,
-                   const std::vector<output::Table>& tables);
+/// Writes --json, --csv and --latex where asked for; the further tables are for LaTeX alone.
+void write_outputs(const Request& request, const Document& document, const std::vector<output::Table>& tables,
+                   const std::vector<output::Table>& further = {});
 
 /// Write --json and --csv of commands that make no study.
 void write_json(const Request& request, const nlohmann::ordered_json& json);

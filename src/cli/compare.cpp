@@ -32,12 +32,12 @@ int compare(Context& context) {
   for (const Scene& scene : scenes) {
     studies.push_back(compare(runner, scene, options, progress));
     const Comparison& study = studies.back();
-    document.add(study);
-    output::Table runs = runs_table(study, fmt::format("Work and precision, {}", study.scene.name));
+    document.add_comparison(study);
+    output::Table runs = comparison_table(study, fmt::format("Work and precision, {}", study.scene.name));
     runs.notes.push_back(sundials_line(context.catalogue));
     const output::Table costs = costs_table(study);
     Document own(context.catalogue, "compare");
-    own.add(study);
+    own.add_comparison(study);
     for (std::string& file : write_study(folder, "compare-" + study.scene.name, {runs, costs}, own,
                                          work_precision_figure(context.catalogue, study), ""))
       files.push_back(std::move(file));
@@ -46,13 +46,29 @@ int compare(Context& context) {
     if (study.interrupted) break;
   }
   progress.finish();
+  std::vector<output::Table> csv, further;
+  for (std::size_t k = 0; k < tables.size(); ++k) (k % 2 == 0 ? csv : further).push_back(tables[k]);
+  const std::optional<Variation> varied = variation(request);
+  const std::size_t variants = varied ? varied->values.size() : 1;
+  for (std::size_t k = 0; varied && k + variants <= studies.size() && !studies.back().interrupted;
+       k += variants) {
+    const std::vector<Comparison> of(studies.begin() + static_cast<std::ptrdiff_t>(k),
+                                     studies.begin() + static_cast<std::ptrdiff_t>(k + variants));
+    const std::string name = of.front().scene.name.substr(0, of.front().scene.name.find('['));
+    tables.push_back(varied_costs_table(of, *varied));
+    further.push_back(tables.back());
+    Document own(context.catalogue, "compare");
+    for (const Comparison& study : of) own.add_comparison(study);
+    for (std::string& file :
+         write_study(folder, fmt::format("compare-{}-by-{}", name, varied->key), {tables.back()}, own,
+                     varied_costs_figure(context.catalogue, of, *varied), ""))
+      files.push_back(std::move(file));
+  }
   for (const output::Table& table : tables) show(request, table);
   for (const std::string& file : files) say(request, "wrote " + file);
   std::vector<const SceneStudy*> pointers;
   for (const Comparison& study : studies) pointers.push_back(&study);
-  std::vector<output::Table> csv;
-  for (std::size_t k = 0; k < tables.size(); k += 2) csv.push_back(tables[k]);
-  write_outputs(request, document, csv);
+  write_outputs(request, document, csv, further);
   return verdict(context, pointers);
 }
 

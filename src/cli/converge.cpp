@@ -32,7 +32,7 @@ int converge(Context& context) {
   }
   progress.finish();
 
-  std::vector<output::Table> tables;
+  std::vector<output::Table> tables, further;
   std::vector<const SceneStudy*> pointers;
   for (const Convergence& study : studies) {
     const output::Table runs = runs_table(study, fmt::format("Convergence, {}", study.scene.name));
@@ -48,9 +48,10 @@ int converge(Context& context) {
         say(request, "wrote " + file);
     }
     tables.push_back(runs);
+    further.push_back(orders);
     pointers.push_back(&study);
   }
-  write_outputs(request, document, tables);
+  write_outputs(request, document, tables, further);
   return verdict(context, pointers);
 }
 

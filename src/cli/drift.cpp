@@ -31,12 +31,13 @@ int drift(Context& context) {
   }
   progress.finish();
 
-  std::vector<output::Table> tables;
+  std::vector<output::Table> tables, further;
   std::vector<const SceneStudy*> pointers;
   for (const DriftStudy& study : studies) {
     std::vector<output::Table> own_tables{drift_table(study)};
     if (study.has_ladder()) own_tables.insert(own_tables.begin(), drift_runs_table(study));
     tables.push_back(own_tables.front());
+    further.insert(further.end(), own_tables.begin() + 1, own_tables.end());
     pointers.push_back(&study);
     for (const output::Table& table : own_tables) show(request, table);
     if (request.out.empty()) continue;
@@ -47,7 +48,7 @@ int drift(Context& context) {
                                                drift_figure(context.catalogue, study, "energy"), ""))
       say(request, "wrote " + file);
   }
-  write_outputs(request, document, tables);
+  write_outputs(request, document, tables, further);
   return verdict(context, pointers);
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "src/output/files.hpp"
+#include "src/output/latex.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -42,6 +43,7 @@ std::vector<std::string> write_study(const std::string& folder, const std::strin
     if (result) {
       written.push_back(fmt::format("{}/{}.svg", folder, stem));
       written.push_back(fmt::format("{}/{}.png", folder, stem));
+      if (result.has_pdf) written.push_back(fmt::format("{}/{}.pdf", folder, stem));
       markdown += fmt::format("![{}]({}.svg)\n\n", figure->title, stem);
     } else {
       std::cerr << fmt::format("gnomon: no figure {}: {}\n", stem, result.message);
@@ -50,6 +52,7 @@ std::vector<std::string> write_study(const std::string& folder, const std::strin
   for (const output::Table& table : tables) markdown += output::to_markdown(table) + "\n";
   write(".md", markdown);
   if (!tables.empty()) write(".csv", output::to_csv(tables.front()));
+  if (!tables.empty()) write(".tex", output::latex_document(tables));
   write(".json", document.text());
   return written;
 }

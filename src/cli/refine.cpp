@@ -58,7 +58,7 @@ int refine(Context& context) {
     for (const std::string& file : write_study(request.out, "refine-" + study.meshes.front().scene.name,
                                                {orders, meshes}, document, refinement_figure(study), ""))
       say(request, "wrote " + file);
-  write_outputs(request, document, {meshes});
+  write_outputs(request, document, {meshes}, {orders});
   std::vector<const SceneStudy*> pointers;
   for (const SceneStudy& mesh : study.meshes) pointers.push_back(&mesh);
   return verdict(context, pointers);

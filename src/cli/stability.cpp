@@ -30,7 +30,7 @@ int stability(Context& context) {
     for (const StabilityScene& on : study.scenes) to.add(on);
     for (auto& item : stability_json(study)) to.json()["stability"].push_back(std::move(item));
   };
-  std::vector<output::Table> all;
+  std::vector<output::Table> all, further;
   bool stopped = false;
   const std::size_t variants = varied ? varied->values.size() : 1;
   for (std::size_t k = 0; k < scenes.size() && !stopped; k += variants) {
@@ -51,9 +51,10 @@ int stability(Context& context) {
         say(request, "wrote " + file);
     }
     all.push_back(tables[0]);
+    further.push_back(tables[1]);
   }
   progress.finish();
-  write_outputs(request, document, all);
+  write_outputs(request, document, all, further);
   if (!stopped) return done;
   std::cerr << "gnomon: interrupted; what was finished is kept\n";
   return interrupted;

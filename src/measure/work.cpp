@@ -13,7 +13,7 @@ bool usable(const WorkPoint& point) { return std::isfinite(point.error) && std::
 
 }  // namespace
 
-std::optional<double> cost_at(std::span<const WorkPoint> curve, double error) {
+std::optional<LevelCost> level_cost(std::span<const WorkPoint> curve, double error) {
   std::size_t first = curve.size();  // the loosest setting that counts
   double envelope = 0.0;             // largest error of the settings that count
   while (first > 0 && usable(curve[first - 1]) && curve[first - 1].error <= error) {
@@ -22,12 +22,17 @@ std::optional<double> cost_at(std::span<const WorkPoint> curve, double error) {
   }
   if (first == curve.size()) return std::nullopt;
   const double cost = curve[first].cost;
-  if (first == 0) return cost;
+  if (first == 0) return LevelCost{cost, true};
   const WorkPoint& looser = curve[first - 1];
   if (!positive(envelope) || !positive(looser.error) || !positive(cost) || !positive(looser.cost))
-    return cost;
+    return LevelCost{cost, true};
   const double part = std::log(error / envelope) / std::log(looser.error / envelope);
-  return cost * std::pow(looser.cost / cost, part);
+  return LevelCost{cost * std::pow(looser.cost / cost, part), false};
+}
+
+std::optional<double> cost_at(std::span<const WorkPoint> curve, double error) {
+  const auto found = level_cost(curve, error);
+  return found ? std::optional(found->cost) : std::nullopt;
 }
 
 std::vector<bool> pareto_front(std::span<const WorkPoint> points) {

@@ -13,11 +13,19 @@ struct WorkPoint {
   double cost = 0.0;  ///< seconds, evaluations, ..
 };
 
+struct LevelCost {
+  double cost = 0.0;
+  bool upper_bound = false;  ///< nothing looser is there to interpolate with: it costs no more than this
+};
+
 /// Cost of reaching `error`, interpolated in log error and log cost on a curve ordered from the loosest
 /// setting to the tightest. A setting counts only if it and every tighter one reach the level: a lucky zero
 /// of the error does not. Where nothing looser is there to interpolate with, the cost of the loosest setting
-/// that counts, which is an upper bound. Nothing if no setting counts. Leave out runs stopped by a limit of
-/// time or steps: they say nothing.
+/// that counts, which is an upper bound. Nothing if no setting counts; nothing is ever extrapolated. Leave
+/// out runs stopped by a limit of time or steps: they say nothing.
+std::optional<LevelCost> level_cost(std::span<const WorkPoint> curve, double error);
+
+/// The same without saying whether it is an upper bound.
 std::optional<double> cost_at(std::span<const WorkPoint> curve, double error);
 
 /// For each point whether no other point is at least as good in error and cost and better in one of them.

@@ -49,11 +49,13 @@ class TemporaryFolder {
 
 /// The environment with a fixed locale, so that numbers and text do not depend on the user's.
 std::vector<std::string> fixed_environment() {
-  std::vector<std::string> variables = {"LC_ALL=C.UTF-8"};
+  // Cairo dates its PDF by the second variable, so that they do not differ by it.
+  std::vector<std::string> variables = {"LC_ALL=C.UTF-8", "SOURCE_DATE_EPOCH=0"};
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string_view variable = *entry;
     const bool replaced = variable.starts_with("LC_") || variable.starts_with("LANG") ||
-                          variable.starts_with("GNUTERM=") || variable.starts_with("GNUPLOT_");
+                          variable.starts_with("GNUTERM=") || variable.starts_with("GNUPLOT_") ||
+                          variable.starts_with("SOURCE_DATE_EPOCH=");
     if (!replaced) variables.emplace_back(variable);
   }
   return variables;
@@ -151,6 +153,21 @@ bool is_whole_png(const std::string& png) {
   return png.starts_with("\x89PNG\r\n\x1a\n") && png.size() > 12 && png.substr(png.size() - 8, 4) == "IEND";
 }
 
+bool is_whole_pdf(const std::string& pdf) {
+  return pdf.starts_with("%PDF-") &&
+         pdf.find("%%EOF", pdf.size() - std::min<std::size_t>(pdf.size(), 10)) != pdf.npos;
+}
+
+/// Versions of Cairo that do not know SOURCE_DATE_EPOCH write the time of day into the PDF, in clear.
+void remove_date(std::string& pdf) {
+  const std::string_view begin = "/CreationDate (D:";
+  const std::size_t at = pdf.find(begin);
+  if (at == std::string::npos) return;
+  for (std::size_t i = at + begin.size(), n = 0; n < 14 && i < pdf.size() && pdf[i] >= '0' && pdf[i] <= '9';
+       ++i, ++n)
+    pdf[i] = n == 0 ? '2' : n == 5 || n == 7 ? '1' : '0';
+}
+
 }  // namespace
 
 FigureResult write_figure(const Figure& figure, const fs::path& stem, const std::string& gnuplot) {
@@ -168,7 +185,8 @@ FigureResult write_figure(const Figure& figure, const fs::path& stem, const std:
     const fs::path parent = stem.has_parent_path() ? stem.parent_path() : fs::path(".");
     fs::create_directories(parent);
     const TemporaryFolder folder(fs::canonical(parent));
-    write_file_atomically(folder.path() / "figure.gp", gnuplot_script(drawing, "figure.svg", "figure.png"));
+    write_file_atomically(folder.path() / "figure.gp",
+                          gnuplot_script(drawing, "figure.svg", "figure.png", "figure.pdf"));
     const std::string problem = run(gnuplot, folder.path());
     if (!problem.empty()) return failed(problem);
     std::string svg = read_file(folder.path() / "figure.svg");
@@ -178,6 +196,15 @@ FigureResult write_figure(const Figure& figure, const fs::path& stem, const std:
     complete_svg(svg, figure);
     write_file_atomically(stem.string() + ".svg", svg);
     write_file_atomically(stem.string() + ".png", png);
+    if (fs::exists(folder.path() / "figure.pdf")) {
+      std::string pdf = read_file(folder.path() / "figure.pdf");
+      if (!is_whole_pdf(pdf)) return failed(fmt::format("'{}' left the PDF incomplete", gnuplot));
+      remove_date(pdf);
+      write_file_atomically(stem.string() + ".pdf", pdf);
+      result.has_pdf = true;
+    } else {
+      fs::remove(stem.string() + ".pdf");
+    }
     result.written = true;
     return result;
   } catch (const std::exception& error) {

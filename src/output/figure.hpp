@@ -1,5 +1,5 @@
 #pragma once
-// Figures as data, drawn by gnuplot (5.4 or later) as SVG and PNG.
+// Figures as data, drawn by gnuplot (5.4 or later) as SVG, PNG and PDF.
 
 #include <filesystem>
 #include <optional>
@@ -59,16 +59,18 @@ struct Figure {
 
 struct FigureResult {
   bool written = false;
+  bool has_pdf = false;               ///< also as PDF; not where gnuplot lacks the terminal pdfcairo
   std::string message;                ///< why nothing was written
   std::vector<std::string> left_out;  ///< what could not be drawn, e.g. a series without positive data
   explicit operator bool() const { return written; }
 };
 
-/// Draw `figure` into `stem`.svg (900 x 600 px, more for several panels) and `stem`.png (twice the pixels).
-/// Each file is written whole or not at all; parent folders are made. If `gnuplot` (a name looked up in PATH,
-/// or an absolute path) is missing or fails, nothing is written and the message says why. The same data give
-/// the same bytes with the same gnuplot and fonts. Throws std::invalid_argument if lengths of a series
-/// differ.
+/// Draw `figure` into `stem`.svg (900 x 600 px, more for several panels), `stem`.png (twice the pixels) and,
+/// where gnuplot has the terminal pdfcairo, `stem`.pdf; where it has not, an older PDF of that name is
+/// removed. Each file is written whole or not at all; parent folders are made. If `gnuplot` (a name looked up
+/// in PATH, or an absolute path) is missing or fails, nothing is written and the message says why. The same
+/// data give the same bytes with the same gnuplot and fonts. Throws std::invalid_argument if lengths of a
+/// series differ.
 FigureResult write_figure(const Figure& figure, const std::filesystem::path& stem,
                           const std::string& gnuplot = "gnuplot");
 

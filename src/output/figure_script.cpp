@@ -160,7 +160,8 @@ std::string quoted(const std::string& text) {
   return result + '\'';
 }
 
-std::string gnuplot_script(const Drawing& drawing, const std::string& svg_path, const std::string& png_path) {
+std::string gnuplot_script(const Drawing& drawing, const std::string& svg_path, const std::string& png_path,
+                           const std::string& pdf_path) {
   std::string script;
   const Output out = std::back_inserter(script);
   fmt::format_to(out, "reset session\nset encoding utf8\n");
@@ -176,6 +177,15 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& svg_path, 
                  "pointscale 2 dashlength 2 background '#ffffff'\n",
                  2.0 * drawing.width, 2.0 * drawing.height, font);
   fmt::format_to(out, "set output {}\n", quoted(png_path));
+  write_panels(out, drawing, &MarkerSize::png);
+  fmt::format_to(out, "if (strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) {{ exit }}\n");
+  // 96 pixels to the inch: units of 1/72 inch are 0.75 of a pixel, and fonts have that factor twice. Lines
+  // and points are half as large there as in the PNG's terminal.
+  fmt::format_to(out,
+                 "set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font '{},15' fontscale 0.5625 "
+                 "linewidth 1.5 pointscale 1.5 dashlength 1.5 background '#ffffff'\n",
+                 drawing.width / 96.0, drawing.height / 96.0, font);
+  fmt::format_to(out, "set output {}\n", quoted(pdf_path));
   write_panels(out, drawing, &MarkerSize::png);
   return script;
 }

@@ -33,8 +33,8 @@ CostRow cost_of(const Comparison& study, const SchemeInfo& scheme) {
   }
   CostRow cost{&scheme, {}, {}};
   for (double level : study.levels) {
-    cost.seconds.push_back(cost_at(seconds, level));
-    cost.evaluations.push_back(cost_at(evaluations, level));
+    cost.seconds.push_back(level_cost(seconds, level));
+    cost.evaluations.push_back(level_cost(evaluations, level));
   }
   return cost;
 }
@@ -63,6 +63,15 @@ std::vector<Cheapest> cheapest_of(const Comparison& study) {
   return list;
 }
 
+/// The Pareto front among all rows, by one of their costs; not finite where a row has none.
+template <class CostOf>
+std::vector<bool> front_of(const Comparison& study, CostOf&& cost_of_row) {
+  std::vector<WorkPoint> points;
+  for (const Row& row : study.rows)
+    points.push_back({row.error.empty() ? std::nan("") : row.error[0], cost_of_row(row)});
+  return pareto_front(points);
+}
+
 }  // namespace
 
 std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
@@ -75,7 +84,7 @@ std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const S
 Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress) {
   Comparison study;
   study.scene = std::move(scene);
-  study.levels = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+  study.levels = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
   for (const SchemeInfo* scheme : schemes) {
@@ -95,6 +104,10 @@ Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, out
   study.interrupted = runner.stopped();
   for (const SchemeInfo* scheme : schemes) study.costs.push_back(cost_of(study, *scheme));
   study.cheapest = cheapest_of(study);
+  study.front_in_time =
+      front_of(study, [](const Row& row) { return row.timing ? row.timing->median : std::nan(""); });
+  study.front_in_evaluations =
+      front_of(study, [](const Row& row) { return static_cast<double>(row.evaluations()); });
   return study;
 }
 

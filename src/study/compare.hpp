@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "src/measure/work.hpp"
 #include "src/study/study.hpp"
 
 namespace gnomon {
@@ -9,8 +10,8 @@ namespace gnomon {
 /// What it costs one scheme to reach an error in the first metric.
 struct CostRow {
   const SchemeInfo* scheme;
-  std::vector<std::optional<double>> seconds;      ///< one a level
-  std::vector<std::optional<double>> evaluations;  ///< one a level
+  std::vector<std::optional<LevelCost>> seconds;      ///< one a level
+  std::vector<std::optional<LevelCost>> evaluations;  ///< one a level
 };
 
 /// The scheme that reaches every error from `from` down to `to` in the least CPU time.
@@ -20,9 +21,12 @@ struct Cheapest {
 };
 
 struct Comparison : SceneStudy {
-  std::vector<double> levels;  ///< errors in the unit of the first metric
+  std::vector<double> levels;  ///< errors in the unit of the first metric, decades from 1e-2 to 1e-12
   std::vector<CostRow> costs;
   std::vector<Cheapest> cheapest;  ///< from 0.1 of the first metric's unit down; where it changes they cross
+  /// For each row, whether no other run reaches its error or less in less CPU time, or with fewer
+  /// evaluations.
+  std::vector<bool> front_in_time, front_in_evaluations;
 };
 
 /// Error against cost, a ladder of steps or tolerances for each scheme, timed interleaved.

@@ -170,6 +170,31 @@ void Document::add(const SceneStudy& study) {
   for (const Row& row : study.rows) json_["runs"].push_back(run_json(study.scene, row));
 }
 
+void Document::add_comparison(const Comparison& study) {
+  const std::size_t first = json_["runs"].size();
+  add(study);
+  for (std::size_t k = 0; k < study.front_in_evaluations.size(); ++k)
+    json_["runs"][first + k]["pareto"] = {{"cpu_seconds", static_cast<bool>(study.front_in_time[k])},
+                                          {"rhs", static_cast<bool>(study.front_in_evaluations[k])}};
+  if (!json_.contains("costs")) json_["costs"] = Json::array();
+  const auto number = [](const std::optional<LevelCost>& cost) {
+    return cost ? finite_or_null(cost->cost) : Json(nullptr);
+  };
+  for (const CostRow& cost : study.costs)
+    for (std::size_t k = 0; k < study.levels.size(); ++k) {
+      const auto &seconds = cost.seconds[k], &evaluations = cost.evaluations[k];
+      json_["costs"].push_back({{"scene", study.scene.name},
+                                {"integrator", cost.scheme->name},
+                                {"metric", study.scene.model->metrics()[0].name},
+                                {"error", study.levels[k]},
+                                {"cpu_seconds", number(seconds)},
+                                {"rhs", number(evaluations)},
+                                {"upper_bound",
+                                 {{"cpu_seconds", seconds && seconds->upper_bound},
+                                  {"rhs", evaluations && evaluations->upper_bound}}}});
+    }
+}
+
 void Document::add_orders(const std::string& scene, const std::vector<OrderRow>& orders) {
   for (const OrderRow& row : orders) {
     const ObservedOrder& order = row.order;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "src/study/compare.hpp"
 #include "src/study/converge.hpp"
 #include "src/study/drift_study.hpp"
 #include "src/study/study.hpp"
@@ -20,6 +21,8 @@ class Document {
  public:
   Document(const Catalogue& catalogue, const std::string& command);
   void add(const SceneStudy& study);
+  /// The same with "pareto" in every run and "costs", one an integrator and level of the error.
+  void add_comparison(const Comparison& study);
   void add_orders(const std::string& scene, const std::vector<OrderRow>& orders);
   /// Adds "drifts", one a run and invariant.
   void add_drifts(const DriftStudy& study);

@@ -64,6 +64,23 @@ std::string error_label(const SceneStudy& study) {
   return fmt::format("{} error at t = {:g} s [{}]", metric.name, study.scene.t_end, metric.unit);
 }
 
+Cell microseconds_cell(const std::optional<LevelCost>& cost) {
+  if (!cost) return {};
+  Cell cell = output::number_cell(1e6 * cost->cost, 3);
+  if (cost->upper_bound) cell.text = "≤ " + cell.text;
+  return cell;
+}
+Cell evaluations_cell(const std::optional<LevelCost>& cost) {
+  if (!cost) return {};
+  Cell cell = output::count_cell(std::llround(cost->cost));
+  if (cost->upper_bound) cell.text = "≤ " + cell.text;
+  return cell;
+}
+constexpr const char* levels_note =
+    "a setting counts only if it and all tighter ones reach the level; log-log between neighbouring "
+    "settings, "
+    "≤: already the loosest one reaches it; — not reached";
+
 }  // namespace
 
 std::string reference_line(const SceneStudy& study) {
@@ -130,6 +147,94 @@ Table runs_table(const SceneStudy& study, const std::string& caption) {
   return table;
 }
 
+Table comparison_table(const Comparison& study, const std::string& caption) {
+  Table table = runs_table(study, caption);
+  if (study.front_in_evaluations.size() != study.rows.size()) return table;  // interrupted
+  const auto status = std::ranges::find(table.columns, "status", &output::Column::key);
+  const auto at = status - table.columns.begin();
+  table.columns.insert(status, {"pareto", "Pareto front", Align::left});
+  for (std::size_t k = 0; k < study.rows.size(); ++k) {
+    const bool time = study.front_in_time[k], evaluations = study.front_in_evaluations[k];
+    Cell cell;
+    if (time || evaluations) cell = time && evaluations ? "time, evaluations" : time ? "time" : "evaluations";
+    table.rows[k].insert(table.rows[k].begin() + at, cell);
+  }
+  table.notes.push_back(
+      "Pareto front: no other run here is as exact for less CPU time, or fewer evaluations");
+  return table;
+}
+
+Table varied_costs_table(const std::vector<Comparison>& variants, const Variation& variation) {
+  Table table;
+  const MetricInfo metric = variants.front().scene.model->metrics()[0];
+  const std::string& name = variants.front().scene.name;
+  table.caption = fmt::format("CPU microseconds (rate evaluations) to a {} error [{}] over {}, {}",
+                              metric.name, metric.unit, variation.key, name.substr(0, name.find('[')));
+  table.columns = {{"integrator", "integrator", Align::left}, {"error", "error"}};
+  for (std::size_t of = 0; of < variants.size(); ++of) {
+    table.columns.push_back({"cpu_us_at_" + variation.values[of], variation.values[of]});
+    table.columns.push_back({"rhs_at_" + variation.values[of], "(rates)"});
+  }
+  for (const CostRow& first : variants.front().costs)
+    for (const std::size_t level : {0U, 2U, 4U}) {
+      std::vector<Cell> cells{std::string(first.scheme->name),
+                              output::number_cell(variants.front().levels[level], 1)};
+      for (const Comparison& study : variants) {
+        const auto cost = std::ranges::find(study.costs, first.scheme, &CostRow::scheme);
+        const bool runs = cost != study.costs.end();
+        cells.push_back(runs ? microseconds_cell(cost->seconds[level]) : Cell{});
+        cells.push_back(runs ? evaluations_cell(cost->evaluations[level]) : Cell{});
+      }
+      table.rows.push_back(std::move(cells));
+    }
+  for (std::size_t of = 0; of < variants.size(); ++of)
+    if (variants[of].reference.kind.empty())
+      table.notes.push_back(
+          fmt::format("{} = {}: {}", variation.key, variation.values[of], reference_line(variants[of])));
+  table.notes.push_back(levels_note);
+  return table;
+}
+
+output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector<Comparison>& variants,
+                                   const Variation& variation) {
+  const MetricInfo metric = variants.front().scene.model->metrics()[0];
+  const std::string& name = variants.front().scene.name;
+  constexpr std::size_t level = 1;
+  const auto numbers = variation.numbers();
+  output::Figure figure;
+  figure.title = fmt::format("{}: cost of a {} error of {:g} {}", name.substr(0, name.find('[')), metric.name,
+                             variants.front().levels[level], metric.unit);
+  output::Panel panel;
+  panel.x_label = numbers ? variation.key : fmt::format("number of the value of {}", variation.key);
+  panel.log_x = numbers && std::ranges::all_of(*numbers, [](double value) { return value > 0.0; });
+  output::Panel time = panel, rates = panel;
+  time.title = "CPU time", rates.title = "evaluations";
+  time.y_label = "CPU time [s]", rates.y_label = "evaluations of the rates";
+  bool timed = false;
+  for (const CostRow& first : variants.front().costs) {
+    output::Series seconds, evaluations;
+    seconds.label = evaluations.label = std::string(first.scheme->name);
+    seconds.style = evaluations.style = style_of_scheme(catalogue, *first.scheme);
+    for (std::size_t of = 0; of < variants.size(); ++of) {
+      const auto cost = std::ranges::find(variants[of].costs, first.scheme, &CostRow::scheme);
+      if (cost == variants[of].costs.end()) continue;
+      for (output::Series* series : {&seconds, &evaluations}) {
+        const auto& at = series == &seconds ? cost->seconds[level] : cost->evaluations[level];
+        timed = timed || (series == &seconds && at);
+        series->x.push_back(numbers ? (*numbers)[of] : static_cast<double>(of + 1));
+        series->y.push_back(at ? at->cost : std::nan(""));
+        series->hollow.push_back(at && at->upper_bound);
+      }
+    }
+    time.series.push_back(std::move(seconds));
+    rates.series.push_back(std::move(evaluations));
+  }
+  figure.hollow_note = "hollow: an upper bound, the loosest setting is more exact";
+  if (timed) figure.panels.push_back(std::move(time));
+  figure.panels.push_back(std::move(rates));
+  return figure;
+}
+
 Table orders_table(const Convergence& study) {
   Table table;
   table.caption = fmt::format("Observed order, {}", study.scene.name);
@@ -162,15 +267,16 @@ Table costs_table(const Comparison& study) {
                               std::string_view("aeiou").find(metric.name.front()) < 5 ? "an" : "a",
                               metric.name, metric.unit, study.scene.name);
   table.columns = {{"integrator", "integrator", Align::left}};
-  for (double level : study.levels) {
+  for (std::size_t k = 0; k < study.levels.size(); k += 2) {
+    const double level = study.levels[k];
     table.columns.push_back({fmt::format("cpu_us_at_{:.0e}", level), fmt::format("{:.0e}", level)});
     table.columns.push_back({fmt::format("rhs_at_{:.0e}", level), "(rates)"});
   }
   for (const CostRow& cost : study.costs) {
     std::vector<Cell> cells{std::string(cost.scheme->name)};
-    for (std::size_t k = 0; k < study.levels.size(); ++k) {
-      cells.push_back(cost.seconds[k] ? output::number_cell(1e6 * *cost.seconds[k], 3) : Cell{});
-      cells.push_back(cost.evaluations[k] ? output::count_cell(std::llround(*cost.evaluations[k])) : Cell{});
+    for (std::size_t k = 0; k < study.levels.size(); k += 2) {
+      cells.push_back(microseconds_cell(cost.seconds[k]));
+      cells.push_back(evaluations_cell(cost.evaluations[k]));
     }
     table.rows.push_back(std::move(cells));
   }
@@ -182,8 +288,7 @@ Table costs_table(const Comparison& study) {
                           each.scheme->name, each.to, metric.unit);
     table.notes.push_back(text);
   }
-  table.notes.push_back(
-      "a setting counts only if it and all tighter ones reach the level; between settings log-log");
+  table.notes.push_back(levels_note);
   return table;
 }
 

@@ -7,6 +7,7 @@
 #include "src/study/compare.hpp"
 #include "src/study/converge.hpp"
 #include "src/study/drift_study.hpp"
+#include "src/study/vary.hpp"
 
 namespace gnomon {
 
@@ -15,8 +16,15 @@ std::string reference_line(const SceneStudy& study);
 
 /// One row a run: setting, errors, evaluations, CPU time, status.
 output::Table runs_table(const SceneStudy& study, const std::string& caption);
+/// The same of a comparison, the Pareto front marked.
+output::Table comparison_table(const Comparison& study, const std::string& caption);
 output::Table orders_table(const Convergence& study);
+/// What every second of the levels of the error costs.
 output::Table costs_table(const Comparison& study);
+/// What errors cost on the variants of one scene: one row an integrator and level, one column a value.
+output::Table varied_costs_table(const std::vector<Comparison>& variants, const Variation& variation);
+output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector<Comparison>& variants,
+                                   const Variation& variation);
 output::Table drift_table(const DriftStudy& study);
 /// One row a run: what becomes of every invariant, how the run ended and the time it reached.
 output::Table drift_runs_table(const DriftStudy& study);

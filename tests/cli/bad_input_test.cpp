@@ -68,8 +68,7 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {run_of("s.toml", {"-x"}),
        "run: found the unknown option '-x', expected one of --integrator, --step, --tol, --t-end, --set, "
        "--max-steps, --time-limit, --newton-tol, --spectral-radius, --modified-newton, --linear-solver, "
-       "--samples, --json, "
-       "--csv, --out, --no-reference, "
+       "--samples, --json, --csv, --latex, --out, --no-reference, "
        "--no-timing, "
        "--quiet, "
        "--help"},
@@ -195,6 +194,10 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {run_of("s.toml", {"--json", "."}), "--json: found the folder '.', expected a file"},
       {run_of("s.toml", {"--csv", "s.toml/a.csv"}),
        "--csv: found 's.toml/a.csv', expected a file in a folder that exists"},
+      {run_of("s.toml", {"--latex", "none/a.tex"}),
+       "--latex: found 'none/a.tex', expected a file in a folder that exists"},
+      {run_of("s.toml", {"--csv", "a", "--latex", "a"}),
+       "--latex: found 'a' as in --csv, expected another file"},
       {run_of("s.toml", {"--json", "-", "--csv", "-"}),
        "--csv: found '-' as in --json, expected another file"},
       {{"converge", "s.toml", "--out", "s.toml"}, "--out: found the file 's.toml', expected a folder"},

@@ -51,6 +51,7 @@ inline bool is_number_or_null(const Json& json) { return json.is_number() || jso
 inline void check_document(const Json& json, const std::string& command) {
   Keys keys{"gnomon", "command", "environment", "scenes", "runs", "orders"};
   if (command == "drift") keys.insert("drifts");
+  if (command == "compare") keys.insert("costs");
   CHECK(keys_of(json) == keys);
   CHECK(json["gnomon"].is_string());
   CHECK(json["command"] == command);
@@ -93,6 +94,10 @@ inline void check_run(const Json& run, std::size_t samples = 0) {
             "message", "t",           "state", "probes",         "invariants", "error",
             "cost",    "cpu_seconds", "flags", "below_bound",    "options"};
   if (samples > 0) keys.insert("series");
+  if (run.contains("pareto")) {
+    keys.insert("pareto");
+    CHECK(keys_of(run["pareto"]) == Keys{"cpu_seconds", "rhs"});
+  }
   CHECK(keys_of(run) == keys);
   for (const char* key : {"scene", "integrator", "status", "message"}) CHECK(run[key].is_string());
   for (const char* key : {"step", "requested_step", "tol"}) CHECK(is_number_or_null(run[key]));

@@ -9,19 +9,21 @@ TEST_CASE("cli: compare writes its tables and figures of every scene and leaves 
   const TemporaryFolder folder;
   write_text(folder.path() / "a.toml", free_top);
   write_text(folder.path() / "b.toml", symmetric_top);
-  const Outcome outcome = run_program(
-      {"compare", "a.toml", "b.toml", "--integrators", "rkmk4,cvode-adams", "--steps", "0.1,0.05", "--tols",
-       "1e-4,1e-6", "--out", "new/results", "--json", "all.json", "--csv", "all.csv", "--quiet"},
-      folder.path());
+  const Outcome outcome =
+      run_program({"compare", "a.toml", "b.toml", "--integrators", "rkmk4,cvode-adams", "--steps", "0.1,0.05",
+                   "--tols", "1e-4,1e-6", "--out", "new/results", "--json", "all.json", "--csv", "all.csv",
+                   "--latex", "all.tex", "--quiet"},
+                  folder.path());
   INFO(outcome.err);
   REQUIRE(outcome.exit_code == 0);
   CHECK(outcome.err.empty());
-  CHECK(folder.entries() == 5);
+  CHECK(folder.entries() == 6);
+  CHECK(content_of(folder.path() / "all.tex").find("\\begin{tabular}") != std::string::npos);
   Keys found, expected;
   for (const auto& entry : fs::directory_iterator(folder.path() / "new" / "results"))
     found.insert(entry.path().filename().string());
   for (const std::string scene : {"free", "symmetric"})
-    for (const char* suffix : {".md", ".csv", ".json", ".svg", ".png"})
+    for (const char* suffix : {".md", ".csv", ".tex", ".json", ".svg", ".png", ".pdf"})
       expected.insert("compare-" + scene + suffix);
   CHECK(found == expected);
   for (const std::string& name : found) {
@@ -29,6 +31,8 @@ TEST_CASE("cli: compare writes its tables and figures of every scene and leaves 
     const std::string content = content_of(folder.path() / "new" / "results" / name);
     INFO(name);
     if (name.ends_with(".md")) CHECK(content.find("| rkmk4 ") != std::string::npos);
+    if (name.ends_with(".tex")) CHECK(content.find("\\toprule") != std::string::npos);
+    if (name.ends_with(".pdf")) CHECK(content.starts_with("%PDF-"));
     if (name.ends_with(".csv")) CHECK(content.starts_with("integrator,step_s,tol,"));
     if (name.ends_with(".csv")) CHECK(std::count(content.begin(), content.end(), '\n') == 1 + 4);
     if (name.ends_with(".svg")) CHECK(content.find("<svg") != std::string::npos);
@@ -47,6 +51,61 @@ TEST_CASE("cli: compare writes its tables and figures of every scene and leaves 
   check_document(all, "compare");
   CHECK(all["scenes"].size() == 2);
   CHECK(all["runs"].size() == 8);
+  CHECK(all["costs"].size() == 2 * 2 * 11);
+  for (const Json& cost : all["costs"]) {
+    CHECK(keys_of(cost) ==
+          Keys{"scene", "integrator", "metric", "error", "cpu_seconds", "rhs", "upper_bound"});
+    CHECK(cost["cpu_seconds"].is_null() == cost["rhs"].is_null());
+  }
+  // Errors of two settings are known: what lies between them costs something between, what is looser no more
+  // than the first, what is tighter is not reached.
+  const auto error = [&](std::size_t k) { return all["runs"][k]["error"]["orientation"].get<double>(); };
+  CHECK(error(0) > error(1));
+  for (const Json& cost : all["costs"]) {
+    if (cost["scene"] != "free" || cost["integrator"] != "rkmk4") continue;
+    const double level = cost["error"];
+    INFO(cost.dump());
+    CHECK(cost["rhs"].is_null() == (level < error(1)));
+    if (cost["rhs"].is_null()) continue;
+    CHECK(cost["upper_bound"]["rhs"] == (level >= error(0)));
+    CHECK(cost["rhs"] >= all["runs"][0]["cost"]["rhs"]);
+    CHECK(cost["rhs"] <= all["runs"][1]["cost"]["rhs"]);
+  }
+  // The front of each scene: every run off it is beaten by one on it.
+  for (const Json& run : all["runs"]) {
+    bool beaten = false;
+    for (const Json& other : all["runs"])
+      beaten = beaten || (other["scene"] == run["scene"] && other["pareto"]["rhs"] == true &&
+                          other["error"]["orientation"] <= run["error"]["orientation"] &&
+                          other["cost"]["rhs"] < run["cost"]["rhs"]);
+    CHECK(run["pareto"]["rhs"] == !beaten);
+  }
+}
+
+TEST_CASE("cli: compare over one parameter shows what errors cost at its values", "[cli]") {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "a.toml", free_top);
+  const Outcome outcome =
+      run_program({"compare", "a.toml", "--integrators", "rkmk4", "--steps", "0.1,0.05,0.025,0.0125",
+                   "--vary", "body.angular_momentum=[1.8, 0.4, -0.9],[3.6,0.8,-1.8]", "--no-timing", "--out",
+                   "out", "--json", "all.json", "--quiet"},
+                  folder.path());
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const Json json = Json::parse(content_of(folder.path() / "all.json"));
+  REQUIRE(json["scenes"].size() == 2);
+  CHECK(json["scenes"][1]["name"] == "free[body.angular_momentum=[3.6,0.8,-1.8]]");
+  CHECK(json["scenes"][1]["body"]["angular_momentum"] == Json({3.6, 0.8, -1.8}));
+  CHECK(json["runs"][4]["scene"] == json["scenes"][1]["name"]);
+  // At twice the speed the same step is 16 times as wrong, to the leading order.
+  const double ratio = json["runs"][7]["error"]["orientation"].get<double>() /
+                       json["runs"][3]["error"]["orientation"].get<double>();
+  CHECK(ratio > 16.0);
+  CHECK(ratio < 64.0);
+  const std::string table = content_of(folder.path() / "out" / "compare-free-by-body.angular_momentum.md");
+  CHECK(table.find("| [1.8, 0.4, -0.9] | (rates) | [3.6,0.8,-1.8] | (rates) |") != std::string::npos);
+  CHECK(fs::exists(folder.path() / "out" / "compare-free-by-body.angular_momentum.svg"));
+  CHECK(fs::exists(folder.path() / "out" / "compare-free-body.angular_momentum=-3.6-0.8--1.8.csv"));
 }
 
 TEST_CASE("cli: a run that was asked for by name and failed gives exit code 1 and is recorded", "[cli]") {

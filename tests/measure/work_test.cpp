@@ -27,6 +27,11 @@ TEST_CASE("measure: a level reached by the loosest setting costs what that setti
   const std::vector<WorkPoint> curve{{1e-5, 3.0}, {1e-7, 5.0}};
   CHECK(cost_at(curve, 1e-2) == 3.0);
   CHECK(cost_at(curve, 1e-5) == 3.0);
+  REQUIRE(gnomon::level_cost(curve, 1e-2));
+  CHECK(gnomon::level_cost(curve, 1e-2)->upper_bound);
+  REQUIRE(gnomon::level_cost(curve, 1e-6));
+  CHECK_FALSE(gnomon::level_cost(curve, 1e-6)->upper_bound);
+  CHECK_FALSE(gnomon::level_cost(curve, 0.99e-7));
 }
 
 TEST_CASE("measure: a setting counts only if all tighter ones reach the level too") {

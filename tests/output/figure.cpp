@@ -96,7 +96,29 @@ TEST_CASE("output: a figure is written as PNG with twice the pixels") {
   CHECK(one.size() > 20000);  // an empty frame is far smaller
   REQUIRE(write_figure(work_precision_in_two_panels(), folder.path() / "two"));
   CHECK(big_endian(read_file(folder.path() / "two.png"), 16) == 2000);
-  CHECK(folder.entries() == 4);  // nothing but the figures
+  CHECK(folder.entries() == 6);  // nothing but the figures
+}
+
+TEST_CASE("output: a figure is written as PDF where gnuplot can, and without one elsewhere") {
+  const TemporaryFolder folder;
+  const FigureResult result = write_figure(convergence(), folder.path() / "a");
+  REQUIRE(result);
+  REQUIRE(result.has_pdf);
+  const std::string pdf = read_file(folder.path() / "a.pdf");
+  CHECK(pdf.starts_with("%PDF-"));
+  CHECK(pdf.size() > 5000);
+  // A gnuplot without that terminal leaves none, nor an older one.
+  const fs::path program = folder.path() / "program";
+  write_file_atomically(
+      program,
+      "#!/bin/sh\nsed -i \"s/, 'pdfcairo')/, 'no such terminal')/\" figure.gp\nexec gnuplot \"$@\"\n");
+  ::chmod(program.c_str(), 0755);
+  const FigureResult without = write_figure(convergence(), folder.path() / "a", program.string());
+  INFO(without.message);
+  REQUIRE(without);
+  CHECK_FALSE(without.has_pdf);
+  CHECK(fs::exists(folder.path() / "a.svg"));
+  CHECK(folder.entries() == 3);
 }
 
 TEST_CASE("output: the same data give the same bytes, other data do not") {
@@ -106,7 +128,7 @@ TEST_CASE("output: the same data give the same bytes, other data do not") {
   Figure changed = convergence();
   changed.panels.front().series[0].y[3] *= 2.0;
   REQUIRE(write_figure(changed, folder.path() / "c"));
-  for (const char* suffix : {".svg", ".png"}) {
+  for (const char* suffix : {".svg", ".png", ".pdf"}) {
     const auto content = [&](const char* name) {
       return read_file(folder.path() / (std::string(name) + suffix));
     };
@@ -149,7 +171,7 @@ TEST_CASE("output: labels are shown as they are written") {
                  "?</text>"));
   CHECK(contains(svg, ">{/Bold x}_{y} [s]</text>"));
   CHECK(contains(svg, "<title>a &lt; b &amp; c</title>"));
-  CHECK(folder.entries() == 2);
+  CHECK(folder.entries() == 3);
 }
 
 TEST_CASE("output: paths need no particular characters") {
@@ -182,7 +204,7 @@ TEST_CASE("output: when gnuplot fails or does nothing, nothing is written and ol
     const FigureResult result = write_figure(drift(), folder.path() / "a", program.string());
     CHECK_FALSE(result);
     CHECK(read_file(folder.path() / "a.svg") == svg);
-    CHECK(folder.entries() == 3);
+    CHECK(folder.entries() == 4);
     return result.message;
   };
   CHECK(contains(failing("echo broken >&2; exit 7"), "ended with code 7: broken"));

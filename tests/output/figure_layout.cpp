@@ -203,7 +203,7 @@ TEST_CASE("output: labels cannot break out of the script") {
   CHECK(quoted("a\nsystem('x')") == "'a system(''x'')'");
   Figure figure = convergence();
   figure.panels.front().series[0].label = "'; system('false'); '\nexit 3";
-  const std::string script = gnuplot_script(lay_out(figure), "a.svg", "a.png");
+  const std::string script = gnuplot_script(lay_out(figure), "a.svg", "a.png", "a.pdf");
   CHECK(script.find("\nexit") == std::string::npos);
   CHECK(script.find("'''; system(''false''); '' exit 3'") != std::string::npos);
 }
