@@ -131,7 +131,11 @@ class Path {
       std::optional<int> iterations;
       double next = 1.0;
       for (;;) {
-        next = factor + step > 1.0 - 1e-9 * first ? 1.0 : factor + step;
+        next = factor + step;
+        // Whole steps are exact multiples of the first, whatever was added up.
+        const double whole = std::round(next / first) * first;
+        if (std::abs(next - whole) <= 1e-9 * first) next = whole;
+        if (next > 1.0 - 1e-9 * first) next = 1.0;
         iterations = load_step(factor, next);
         if (iterations || step < smallest_part * first) break;
         step *= 0.5;

@@ -148,5 +148,5 @@ TEST_CASE("planar beam: the spin-up arm ends stretched by its own inertia", "[pl
   }
   const double extension = sum / count;
   INFO(extension);
-  CHECK(std::abs(extension - 5.14317e-4) <= 2e-6);
+  CHECK(std::abs(extension - 5.14317e-4) <= 1e-7);
 }
