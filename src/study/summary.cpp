@@ -59,10 +59,10 @@ void Fastest::add(const Comparison& study) {
     const CostRow* best = nullptr;
     for (const CostRow& row : study.costs) {
       if (level >= row.seconds.size() || !row.seconds[level]) continue;
-      if (!best || *row.seconds[level] < *best->seconds[level]) best = &row;
+      if (!best || row.seconds[level]->cost < best->seconds[level]->cost) best = &row;
     }
     cells.push_back(best ? output::Cell(fmt::format("{} {} us", best->scheme->name,
-                                                    output::number(1e6 * *best->seconds[level], 3)))
+                                                    output::number(1e6 * best->seconds[level]->cost, 3)))
                          : output::Cell());
   }
   rows_.push_back(std::move(cells));
