@@ -57,6 +57,11 @@ bool read(const std::string& path, const std::string& key, ReferenceStates& refe
 
 }  // namespace
 
+std::string ReferenceStore::path(const Scene& scene, const std::vector<double>& times) const {
+  if (scene.model->has_exact() || folder_.empty()) return "";
+  return fmt::format("{}/{}.json", folder_, hash_text(key_text(scene, times)));
+}
+
 const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector<double>& times,
                                            const Fallback& fallback) {
   const std::string key = key_text(scene, times);
@@ -72,14 +77,14 @@ const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector
     return other;
   };
   ReferenceStates reference;
-  if (scene.model->has_exact() || folder_.empty()) {
+  const std::string file = path(scene, times);
+  if (file.empty()) {
     reference = make();
   } else {
-    const std::string path = fmt::format("{}/{}.json", folder_, hash_text(key));
-    if (!read(path, key, reference)) {
+    if (!read(file, key, reference)) {
       reference = make();
       try {
-        if (settled) output::write_file_atomically(path, to_json(scene, reference, key).dump(1) + "\n");
+        if (settled) output::write_file_atomically(file, to_json(scene, reference, key).dump(1) + "\n");
       } catch (const std::runtime_error&) {
         // A cache that cannot be written costs time, not correctness.
       }

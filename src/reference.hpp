@@ -21,6 +21,9 @@ class ReferenceStore {
   /// States at ascending times. Kept in memory too.
   const ReferenceStates& get(const Scene& scene, const std::vector<double>& times,
                              const Fallback& fallback = {});
+  /// The file in which a certified reference is kept, whether it is there or not; empty for a closed form or
+  /// where nothing is kept.
+  std::string path(const Scene& scene, const std::vector<double>& times) const;
 
  private:
   std::string folder_;

@@ -18,6 +18,7 @@
 #include "src/study/peers.hpp"
 #include "src/study/present.hpp"
 #include "src/study/published.hpp"
+#include "src/study/scorecard.hpp"
 #include "src/study/speed.hpp"
 #include "src/study/summary.hpp"
 #include "src/study/survey.hpp"
@@ -152,6 +153,18 @@ class Study {
                         plan.integrators.size() * plan.steps.size(),
                         [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
     }
+    if (!study.scorecard.empty() && !session_.quick) {
+      const std::vector<Scene> carded = scenes(study.scorecard);
+      std::vector<StudyOptions> card_options;
+      std::size_t card_runs = 0;
+      for (const Scene& scene : carded) {
+        card_options.push_back(on(scene));
+        card_runs += scorecard_runs(context_.catalogue, scene, card_options.back());
+      }
+      parts_.push_back({model + "-scorecard", "Scorecard", card_runs, [=, this](output::Progress& progress) {
+                          return make_scorecard(model, carded, card_options, progress);
+                        }});
+    }
     if (!study.survey.empty())
       parts_.push_back({model + "-survey", "All schemes of equal steps",
                         survey_runs(context_.catalogue, study.survey, session_.quick),
@@ -247,6 +260,30 @@ class Study {
              {}},
             document);
     if (!ladder) counts_.add(name, study);
+    return true;
+  }
+
+  bool make_scorecard(const std::string& model, const std::vector<Scene>& scenes,
+                      const std::vector<StudyOptions>& options, output::Progress& progress) {
+    Document document = new_document();
+    document.json()["scorecard"] = nlohmann::ordered_json::array();
+    std::vector<output::Table> tables;
+    std::string names;
+    for (std::size_t k = 0; k < scenes.size(); ++k) {
+      const Scorecard card = gnomon::scorecard(runner_, scenes[k], options[k], progress);
+      if (card.interrupted) return false;
+      for (auto& item : scorecard_json(card)) document.json()["scorecard"].push_back(std::move(item));
+      tables.push_back(scorecard_table(card));
+      names += " " + scenes[k].name;
+    }
+    tables.back().notes.push_back(sundials_line(context_.catalogue));
+    publish({model + "-scorecard",
+             "Scorecard: " + model,
+             command("scorecard" + names, options.front()),
+             tables,
+             {},
+             {}},
+            document);
     return true;
   }
 

@@ -95,6 +95,8 @@ int drift(Context& context);
 /// The command `static`.
 int statics(Context& context);
 int stability(Context& context);
+int scorecard(Context& context);
+int reference(Context& context);
 int survey(Context& context);
 int bench(Context& context);
 int report(Context& context);

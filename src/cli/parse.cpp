@@ -27,6 +27,8 @@ struct Argument {
 };
 
 constexpr Argument scene{"SCENE", "the name of a shipped scene or a .toml file", &Request::scenes};
+constexpr Argument some_scenes{"SCENE", "a shipped scene or a .toml file; those of the study without it",
+                               &Request::scenes};
 constexpr Argument model_name{"MODEL", "a model with a survey; all without it", &Request::what};
 constexpr Argument folder{"DIR", "a folder that `gnomon bench` has written", &Request::what};
 constexpr Argument what{"WHAT", "scenes, models or integrators; all without it", &Request::what};
@@ -78,7 +80,7 @@ constexpr Option every_option[] = {
     {'M', "--no-timing", "", "nothing is timed", &Request::no_timing},
     {'y', "--study", "FILE.toml", "a study of yours, written as models/*/study.toml are", &Request::study},
     {'q', "--quick", "", "shorter ladders", &Request::quick},
-    {'F', "--fresh", "", "measure all anew; what is there is put aside", &Request::fresh},
+    {'F', "--fresh", "", "make all anew; what is there is put aside", &Request::fresh},
     {'Q', "--quiet", "", "no progress on standard error", &Request::quiet},
 };
 
@@ -109,11 +111,17 @@ constexpr Command commands[] = {
     {"stability", "SCENE.. [--integrators A,B,..] [--vary KEY=V1,V2,..]",
      "the largest step that each scheme of equal steps survives, and how it fails beyond", &scene,
      "IvDeaxlnSmZjcLoRQ", stability},
+    {"scorecard", "[SCENE..] [--integrators A,B,..]",
+     "one line a scheme: order, cost at 3, 6 and 9 digits, energy, largest step, failures", &some_scenes,
+     "IeaxlnjcLoMQ", scorecard},
     {"static", "SCENE [--load-steps N] [--arc-length]",
      "equilibrium under the loads by Newton's method, from no load on", &scene, "kKaxnjcQ", statics},
     {"survey", "[MODEL..] [--quick]",
      "all schemes of equal steps of a model: order, cost, invariants, largest step", &model_name,
      "xljcLoRMqQ", survey},
+    {"reference", "SCENE.. [--t-end T] [--fresh]",
+     "the reference solution: kind, methods, bounds of its error, state at the end", &scene, "eaFjcLQ",
+     reference},
     {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqyFQ",
      bench},
     {"report", "DIR", "tables, figures and one HTML page from the measurements of a study; runs nothing",

@@ -180,10 +180,10 @@ std::string gnuplot_script(const Drawing& drawing, const std::string& svg_path, 
   write_panels(out, drawing, &MarkerSize::png);
   fmt::format_to(out, "if (strstrt(GPVAL_TERMINALS, 'pdfcairo') == 0) {{ exit }}\n");
   // 96 pixels to the inch: units of 1/72 inch are 0.75 of a pixel, and fonts have that factor twice. Lines
-  // and points are half as large there as in the PNG's terminal.
+  // are half as wide there as in the PNG's terminal, and dashes shorter.
   fmt::format_to(out,
                  "set terminal pdfcairo size {:.4f}in,{:.4f}in enhanced font '{},15' fontscale 0.5625 "
-                 "linewidth 1.5 pointscale 1.5 dashlength 1.5 background '#ffffff'\n",
+                 "linewidth 1.5 pointscale 0.75 dashlength 1.82 background '#ffffff'\n",
                  drawing.width / 96.0, drawing.height / 96.0, font);
   fmt::format_to(out, "set output {}\n", quoted(pdf_path));
   write_panels(out, drawing, &MarkerSize::png);

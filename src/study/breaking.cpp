@@ -36,6 +36,15 @@ std::string failure_of(const Scene& scene, const Row& row, const Survival& survi
   return "";
 }
 
+std::string survival_line(const Survival& survival) {
+  return fmt::format(
+      "a step survives if the run ends well, every state finite, and no invariant is off by more than {:g} "
+      "of its scale at 256 jittered times; where no energy is constant, also no error at the end above {:g} "
+      "of "
+      "that of a result that is wrong altogether",
+      survival.max_drift, survival.max_error);
+}
+
 std::optional<double> largest_drift(const Row& row) {
   std::optional<double> largest;
   for (const InvariantSummary& invariant : row.invariants) {

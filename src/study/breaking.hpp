@@ -18,6 +18,9 @@ struct Survival {
 /// Why a run does not survive: its status, or what is wrong altogether; empty if it survives.
 std::string failure_of(const Scene& scene, const Row& row, const Survival& survival);
 
+/// What counts as surviving, in one line.
+std::string survival_line(const Survival& survival);
+
 /// The largest drift of an invariant in a run, relative to its scale; none where nothing is constant.
 std::optional<double> largest_drift(const Row& row);
 

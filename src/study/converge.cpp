@@ -15,7 +15,9 @@ std::vector<Setting> order_ladder(const Scene& scene, const SchemeInfo& scheme, 
   return settings(scheme, options, step_ladder(scene, options.quick ? 17 : 21, 0.5), default_tols());
 }
 
-OrderRow observe(const Convergence& study, const SchemeInfo& scheme, std::size_t metric) {
+}  // namespace
+
+OrderRow observed_order(const SceneStudy& study, const SchemeInfo& scheme, std::size_t metric) {
   const MetricInfo info = study.scene.model->metrics()[metric];
   std::vector<OrderPoint> points;
   for (const Row& row : study.rows) {
@@ -41,8 +43,6 @@ OrderRow observe(const Convergence& study, const SchemeInfo& scheme, std::size_t
           scheme.order_for(study.scene.model->load_class(), info.name)};
 }
 
-}  // namespace
-
 std::size_t converge_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
   std::size_t runs = 0;
   for (const SchemeInfo* scheme : select(catalogue, scene, options))
@@ -66,7 +66,7 @@ Convergence converge(Runner& runner, Scene scene, const StudyOptions& options, o
     if (study.interrupted) break;
     if (scheme->stepping == Stepping::fixed)
       for (std::size_t metric = 0; metric < study.scene.model->metrics().size(); ++metric)
-        study.orders.push_back(observe(study, *scheme, metric));
+        study.orders.push_back(observed_order(study, *scheme, metric));
   }
   return study;
 }

@@ -20,6 +20,9 @@ struct Convergence : SceneStudy {
   std::vector<OrderRow> orders;  ///< of the fixed-step schemes
 };
 
+/// The order that the rows of one scheme of equal steps show in one metric.
+OrderRow observed_order(const SceneStudy& study, const SchemeInfo& scheme, std::size_t metric);
+
 /// Error against step (or tolerance) for each chosen scheme.
 Convergence converge(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
 

@@ -64,18 +64,6 @@ std::string error_label(const SceneStudy& study) {
   return fmt::format("{} error at t = {:g} s [{}]", metric.name, study.scene.t_end, metric.unit);
 }
 
-Cell microseconds_cell(const std::optional<LevelCost>& cost) {
-  if (!cost) return {};
-  Cell cell = output::number_cell(1e6 * cost->cost, 3);
-  if (cost->upper_bound) cell.text = "≤ " + cell.text;
-  return cell;
-}
-Cell evaluations_cell(const std::optional<LevelCost>& cost) {
-  if (!cost) return {};
-  Cell cell = output::count_cell(std::llround(cost->cost));
-  if (cost->upper_bound) cell.text = "≤ " + cell.text;
-  return cell;
-}
 constexpr const char* levels_note =
     "a setting counts only if it and all tighter ones reach the level; log-log between neighbouring "
     "settings, "
@@ -83,6 +71,19 @@ constexpr const char* levels_note =
 
 }  // namespace
 
+Cell microseconds_cell(const std::optional<LevelCost>& cost) {
+  if (!cost) return {};
+  Cell cell = output::number_cell(1e6 * cost->cost, 3);
+  if (cost->upper_bound) cell.text = "≤ " + cell.text;
+  return cell;
+}
+
+Cell evaluations_cell(const std::optional<LevelCost>& cost) {
+  if (!cost) return {};
+  Cell cell = output::count_cell(std::llround(cost->cost));
+  if (cost->upper_bound) cell.text = "≤ " + cell.text;
+  return cell;
+}
 std::string reference_line(const SceneStudy& study) {
   const ReferenceStates& reference = study.reference;
   if (reference.kind.empty())

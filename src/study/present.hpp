@@ -14,6 +14,10 @@ namespace gnomon {
 /// The reference's kind and bounds in one line.
 std::string reference_line(const SceneStudy& study);
 
+/// The cost of a level: microseconds of CPU time, or evaluations; an upper bound with its sign.
+output::Cell microseconds_cell(const std::optional<LevelCost>& cost);
+output::Cell evaluations_cell(const std::optional<LevelCost>& cost);
+
 /// One row a run: setting, errors, evaluations, CPU time, status.
 output::Table runs_table(const SceneStudy& study, const std::string& caption);
 /// The same of a comparison, the Pareto front marked.

@@ -41,15 +41,6 @@ std::string steps_text(const std::vector<double>& steps) {
 
 }  // namespace
 
-std::string survival_line(const Survival& survival) {
-  return fmt::format(
-      "a step survives if the run ends well, every state finite, and no invariant is off by more than {:g} "
-      "of "
-      "its scale at 256 jittered times; where no energy is constant, also no error at the end above {:g} of "
-      "that of a result that is wrong altogether",
-      survival.max_drift, survival.max_error);
-}
-
 output::Table stability_table(const Stability& study) {
   output::Table table;
   table.caption = fmt::format("Largest step that survives, {}", study.name);

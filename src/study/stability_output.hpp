@@ -7,9 +7,6 @@
 
 namespace gnomon {
 
-/// What counts as surviving, in one line.
-std::string survival_line(const Survival& survival);
-
 /// One row a scene and scheme: the largest step and how the next larger one fails.
 output::Table stability_table(const Stability& study);
 /// One row a scene and scheme, one column a step of the ladder: "ok", or what fails and when.

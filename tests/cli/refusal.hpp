@@ -48,7 +48,9 @@ inline std::string model_names() {
 }
 
 inline const std::string commands =
-    "one of list, run, converge, compare, drift, stability, static, survey, bench, report, doctor";
+    "one of list, run, converge, compare, drift, stability, scorecard, static, survey, reference, bench, "
+    "report, "
+    "doctor";
 inline const std::string name_text =
     "a name in quotes: at most 100 letters, digits, - _ and . that begin with a letter or digit";
 inline const std::string inertia_text = "three positive numbers (principal moments, kg m^2)";

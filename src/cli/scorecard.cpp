@@ -1,0 +1,51 @@
+#include "src/study/scorecard.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "src/cli/command.hpp"
+#include "src/cli/files.hpp"
+#include "src/environment.hpp"
+
+namespace gnomon::cli {
+
+int scorecard(Context& context) {
+  const Request& request = context.request;
+  const StudyOptions options = study_options(request);
+  if (request.scenes.empty())
+    for (const std::string& file : context.catalogue.study_files)
+      for (const std::string& name : read_study(file).scorecard) context.request.scenes.push_back(name);
+  const std::vector<Scene> scenes = load_scenes(context);
+  std::size_t total = 0;
+  for (const Scene& scene : scenes) total += scorecard_runs(context.catalogue, scene, options);
+  warn(scenes);
+
+  ReferenceStore references(reference_folder());
+  Runner runner(context.catalogue, references, context.stop);
+  output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);
+  Document document(context.catalogue, "scorecard");
+  document.json()["scorecard"] = nlohmann::ordered_json::array();
+  std::vector<output::Table> tables;
+  bool stopped = false;
+  for (const Scene& scene : scenes) {
+    const Scorecard card = gnomon::scorecard(runner, scene, options, progress);
+    stopped = card.interrupted;
+    document.add(card.comparison);
+    for (auto& item : scorecard_json(card)) document.json()["scorecard"].push_back(std::move(item));
+    tables.push_back(scorecard_table(card));
+    if (options.timing) tables.back().notes.push_back(sundials_line(context.catalogue));
+    if (stopped) break;
+  }
+  progress.finish();
+  for (const output::Table& table : tables) show(request, table);
+  if (!request.out.empty())
+    for (const std::string& file : write_study(request.out, "scorecard", tables, document, std::nullopt, ""))
+      say(request, "wrote " + file);
+  write_outputs(request, document, tables);
+  if (!stopped) return done;
+  std::cerr << "gnomon: interrupted; what was finished is kept\n";
+  return interrupted;
+}
+
+}  // namespace gnomon::cli
