@@ -97,4 +97,9 @@ struct BeamMixedMidpoint : MidpointStep<Turning::mixed> {
   };
 };
 
+extern template class Stepper<planar_beam::PlanarBeam<1>, Turning::mixed>;
+extern template class Stepper<planar_beam::PlanarBeam<2>, Turning::mixed>;
+extern template class Stepper<planar_beam::PlanarBeam<3>, Turning::mixed>;
+extern template class Stepper<planar_beam::PlanarBeam<4>, Turning::mixed>;
+
 }  // namespace gnomon::beam

@@ -67,4 +67,9 @@ struct BeamStanderStein : MidpointStep<Turning::stander_stein> {
   };
 };
 
+extern template class Stepper<planar_beam::PlanarBeam<1>, Turning::stander_stein>;
+extern template class Stepper<planar_beam::PlanarBeam<2>, Turning::stander_stein>;
+extern template class Stepper<planar_beam::PlanarBeam<3>, Turning::stander_stein>;
+extern template class Stepper<planar_beam::PlanarBeam<4>, Turning::stander_stein>;
+
 }  // namespace gnomon::beam

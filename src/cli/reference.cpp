@@ -63,19 +63,18 @@ void print(const Request& request, const SceneStudy& study, const Origin& origin
 
 /// Adds what other commands do not show to the reference of the last scene.
 void complete(Document& document, const SceneStudy& study, const Origin& origin) {
-  using Json = nlohmann::ordered_json;
-  Json& json = document.json()["scenes"].back()["reference"];
+  nlohmann::ordered_json& json = document.json()["scenes"].back()["reference"];
   const bool exists = !study.reference.kind.empty();
-  json["t"] = exists ? Json(study.scene.t_end) : Json(nullptr);
-  json["file"] = origin.file.empty() ? Json(nullptr) : Json(origin.file);
+  json["t"] = exists ? nlohmann::ordered_json(study.scene.t_end) : nlohmann::ordered_json(nullptr);
+  json["file"] = origin.file.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(origin.file);
   json["from_file"] = origin.there;
   json["seconds"] = origin.seconds;
   json["state"] = nullptr;
-  json["probes"] = Json::object();
-  json["decimals"] = Json::object();
+  json["probes"] = nlohmann::ordered_json::object();
+  json["decimals"] = nlohmann::ordered_json::object();
   if (!exists) return;
   const std::vector<double>& state = study.reference.states.back();
-  json["state"] = Json::object();
+  json["state"] = nlohmann::ordered_json::object();
   for (const Named& component : study.scene.model->observe(state))
     json["state"][component.name] = component.values;
   for (const Probe& probe : study.scene.model->probes(state))
