@@ -206,6 +206,14 @@ std::vector<std::string> Section::texts(std::string_view key, std::string_view e
   return list;
 }
 
+std::vector<std::string> Section::values(std::string_view key, std::string_view expected) {
+  const toml::array* array = require(key, expected).as_array();
+  if (!array || array->empty()) fail(key, shown(key), expected);
+  std::vector<std::string> list;
+  for (const toml::node& entry : *array) list.push_back(shown_value(entry));
+  return list;
+}
+
 std::string Section::one_of(std::string_view key, const std::vector<std::string>& choices) {
   const std::string expected = choices_text(choices);
   const std::string value = text(key, expected);

@@ -49,6 +49,8 @@ class Section {
   std::string text_or(std::string_view key, std::string_view fallback, std::string_view expected);
   /// A list of texts; none when the key is absent.
   std::vector<std::string> texts(std::string_view key, std::string_view expected);
+  /// A list of one or more values of any kind, each as it would stand in a TOML file.
+  std::vector<std::string> values(std::string_view key, std::string_view expected);
   std::string one_of(std::string_view key, const std::vector<std::string>& choices);
   /// A table inside this one; none when the key is absent.
   std::optional<Section> section(std::string_view key);

@@ -22,6 +22,7 @@
 #include "src/study/speed.hpp"
 #include "src/study/summary.hpp"
 #include "src/study/survey.hpp"
+#include "src/study/vary_study.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -153,6 +154,13 @@ class Study {
                         plan.integrators.size() * plan.steps.size(),
                         [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
     }
+    for (const VaryPlan& plan : study.vary) {
+      if (session_.quick && plan.full_only) continue;
+      parts_.push_back({"vary-" + plan.label, "Over one parameter: " + plan.label,
+                        vary_runs(context_.catalogue, plan, options), [=, this](output::Progress& progress) {
+                          return make_vary(plan, options, progress);
+                        }});
+    }
     if (!study.scorecard.empty() && !session_.quick) {
       const std::vector<Scene> carded = scenes(study.scorecard);
       std::vector<StudyOptions> card_options;
@@ -260,6 +268,26 @@ class Study {
              {}},
             document);
     if (!ladder) counts_.add(name, study);
+    return true;
+  }
+
+  bool make_vary(const VaryPlan& plan, const StudyOptions& options, output::Progress& progress) {
+    const VariedStudy study = vary(runner_, plan, options, progress);
+    if (study.interrupted) return false;
+    Document document = new_document();
+    study.add_to(document);
+    StudyOptions named;
+    named.quick = options.quick;
+    named.integrators = plan.integrators;
+    const std::string name = "vary-" + plan.label;
+    publish({name,
+             "Over one parameter: " + plan.label,
+             command(vary_command(plan), named),
+             study.tables(),
+             study.figure(context_.catalogue),
+             {}},
+            document);
+    for (const Comparison& each : study.comparisons) counts_.add(name, each);
     return true;
   }
 

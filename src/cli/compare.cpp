@@ -8,6 +8,7 @@
 #include "src/cli/files.hpp"
 #include "src/environment.hpp"
 #include "src/study/present.hpp"
+#include "src/study/vary_output.hpp"
 
 namespace gnomon::cli {
 
@@ -55,13 +56,13 @@ int compare(Context& context) {
     const std::vector<Comparison> of(studies.begin() + static_cast<std::ptrdiff_t>(k),
                                      studies.begin() + static_cast<std::ptrdiff_t>(k + variants));
     const std::string name = of.front().scene.name.substr(0, of.front().scene.name.find('['));
-    tables.push_back(varied_costs_table(of, *varied));
-    further.push_back(tables.back());
+    const std::vector<output::Table> over = varied_tables(of, *varied);
+    tables.insert(tables.end(), over.begin(), over.end());
+    further.insert(further.end(), over.begin(), over.end());
     Document own(context.catalogue, "compare");
     for (const Comparison& study : of) own.add_comparison(study);
-    for (std::string& file :
-         write_study(folder, fmt::format("compare-{}-by-{}", name, varied->key), {tables.back()}, own,
-                     varied_costs_figure(context.catalogue, of, *varied), ""))
+    for (std::string& file : write_study(folder, fmt::format("compare-{}-by-{}", name, varied->key), over,
+                                         own, varied_figure(context.catalogue, of, *varied), ""))
       files.push_back(std::move(file));
   }
   for (const output::Table& table : tables) show(request, table);

@@ -14,19 +14,6 @@ using output::Align;
 using output::Cell;
 using output::Table;
 
-/// The scheme's position in the catalogue, so that it looks the same in every figure.
-int style_of_scheme(const Catalogue& catalogue, const SchemeInfo& scheme) {
-  for (std::size_t k = 0; k < catalogue.schemes.size(); ++k)
-    if (catalogue.schemes[k].name == scheme.name) return static_cast<int>(k);
-  return 0;
-}
-
-Cell error_cell(const Row& row, std::size_t metric) {
-  if (metric >= row.error.size()) return {};
-  return row.below_bound[metric] ? output::at_most_cell(row.error[metric])
-                                 : output::number_cell(row.error[metric]);
-}
-
 std::string unit_of(const MetricInfo& metric) {
   return metric.unit == "1" ? "relative" : std::string(metric.unit);
 }
@@ -64,12 +51,19 @@ std::string error_label(const SceneStudy& study) {
   return fmt::format("{} error at t = {:g} s [{}]", metric.name, study.scene.t_end, metric.unit);
 }
 
-constexpr const char* levels_note =
-    "a setting counts only if it and all tighter ones reach the level; log-log between neighbouring "
-    "settings, "
-    "≤: already the loosest one reaches it; — not reached";
-
 }  // namespace
+
+int style_of_scheme(const Catalogue& catalogue, const SchemeInfo& scheme) {
+  for (std::size_t k = 0; k < catalogue.schemes.size(); ++k)
+    if (catalogue.schemes[k].name == scheme.name) return static_cast<int>(k);
+  return 0;
+}
+
+Cell error_cell(const Row& row, std::size_t metric) {
+  if (metric >= row.error.size()) return {};
+  return row.below_bound[metric] ? output::at_most_cell(row.error[metric])
+                                 : output::number_cell(row.error[metric]);
+}
 
 Cell microseconds_cell(const std::optional<LevelCost>& cost) {
   if (!cost) return {};
@@ -84,6 +78,7 @@ Cell evaluations_cell(const std::optional<LevelCost>& cost) {
   if (cost->upper_bound) cell.text = "≤ " + cell.text;
   return cell;
 }
+
 std::string reference_line(const SceneStudy& study) {
   const ReferenceStates& reference = study.reference;
   if (reference.kind.empty())
@@ -163,77 +158,6 @@ Table comparison_table(const Comparison& study, const std::string& caption) {
   table.notes.push_back(
       "Pareto front: no other run here is as exact for less CPU time, or fewer evaluations");
   return table;
-}
-
-Table varied_costs_table(const std::vector<Comparison>& variants, const Variation& variation) {
-  Table table;
-  const MetricInfo metric = variants.front().scene.model->metrics()[0];
-  const std::string& name = variants.front().scene.name;
-  table.caption = fmt::format("CPU microseconds (rate evaluations) to a {} error [{}] over {}, {}",
-                              metric.name, metric.unit, variation.key, name.substr(0, name.find('[')));
-  table.columns = {{"integrator", "integrator", Align::left}, {"error", "error"}};
-  for (std::size_t of = 0; of < variants.size(); ++of) {
-    table.columns.push_back({"cpu_us_at_" + variation.values[of], variation.values[of]});
-    table.columns.push_back({"rhs_at_" + variation.values[of], "(rates)"});
-  }
-  for (const CostRow& first : variants.front().costs)
-    for (const std::size_t level : {0U, 2U, 4U}) {
-      std::vector<Cell> cells{std::string(first.scheme->name),
-                              output::number_cell(variants.front().levels[level], 1)};
-      for (const Comparison& study : variants) {
-        const auto cost = std::ranges::find(study.costs, first.scheme, &CostRow::scheme);
-        const bool runs = cost != study.costs.end();
-        cells.push_back(runs ? microseconds_cell(cost->seconds[level]) : Cell{});
-        cells.push_back(runs ? evaluations_cell(cost->evaluations[level]) : Cell{});
-      }
-      table.rows.push_back(std::move(cells));
-    }
-  for (std::size_t of = 0; of < variants.size(); ++of)
-    if (variants[of].reference.kind.empty())
-      table.notes.push_back(
-          fmt::format("{} = {}: {}", variation.key, variation.values[of], reference_line(variants[of])));
-  table.notes.push_back(levels_note);
-  return table;
-}
-
-output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector<Comparison>& variants,
-                                   const Variation& variation) {
-  const MetricInfo metric = variants.front().scene.model->metrics()[0];
-  const std::string& name = variants.front().scene.name;
-  constexpr std::size_t level = 1;
-  const auto numbers = variation.numbers();
-  output::Figure figure;
-  figure.title = fmt::format("{}: cost of a {} error of {:g} {}", name.substr(0, name.find('[')), metric.name,
-                             variants.front().levels[level], metric.unit);
-  output::Panel panel;
-  panel.x_label = numbers ? variation.key : fmt::format("number of the value of {}", variation.key);
-  panel.log_x = numbers && std::ranges::all_of(*numbers, [](double value) { return value > 0.0; });
-  output::Panel time = panel, rates = panel;
-  time.title = "CPU time", rates.title = "evaluations";
-  time.y_label = "CPU time [s]", rates.y_label = "evaluations of the rates";
-  bool timed = false;
-  for (const CostRow& first : variants.front().costs) {
-    output::Series seconds, evaluations;
-    seconds.label = evaluations.label = std::string(first.scheme->name);
-    seconds.style = evaluations.style = style_of_scheme(catalogue, *first.scheme);
-    for (std::size_t of = 0; of < variants.size(); ++of) {
-      const auto cost = std::ranges::find(variants[of].costs, first.scheme, &CostRow::scheme);
-      if (cost == variants[of].costs.end()) continue;
-      for (output::Series* series : {&seconds, &evaluations}) {
-        const auto& at = series == &seconds ? cost->seconds[level] : cost->evaluations[level];
-        timed = timed || (series == &seconds && at);
-        series->x.push_back(numbers ? (*numbers)[of] : static_cast<double>(of + 1));
-        series->y.push_back(at ? at->cost : std::nan(""));
-        series->hollow.push_back(at && at->upper_bound);
-      }
-    }
-    time.series.push_back(std::move(seconds));
-    rates.series.push_back(std::move(evaluations));
-  }
-  figure.hollow_note = "hollow: an upper bound, the loosest setting is more exact";
-  if (timed) figure.panels.push_back(std::move(time));
-  figure.panels.push_back(std::move(rates));
-  return figure;
 }
 
 Table orders_table(const Convergence& study) {

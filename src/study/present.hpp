@@ -7,13 +7,22 @@
 #include "src/study/compare.hpp"
 #include "src/study/converge.hpp"
 #include "src/study/drift_study.hpp"
-#include "src/study/vary.hpp"
 
 namespace gnomon {
 
 /// The reference's kind and bounds in one line.
 std::string reference_line(const SceneStudy& study);
 
+/// How the cost of a level is found, for a note.
+inline constexpr const char* levels_note =
+    "a setting counts only if it and all tighter ones reach the level; log-log between neighbouring "
+    "settings, "
+    "≤: already the loosest one reaches it; — not reached";
+
+/// The scheme's position in the catalogue, so that it looks the same in every figure.
+int style_of_scheme(const Catalogue& catalogue, const SchemeInfo& scheme);
+/// An error, with a sign where it is not above the bound of the reference.
+output::Cell error_cell(const Row& row, std::size_t metric);
 /// The cost of a level: microseconds of CPU time, or evaluations; an upper bound with its sign.
 output::Cell microseconds_cell(const std::optional<LevelCost>& cost);
 output::Cell evaluations_cell(const std::optional<LevelCost>& cost);
@@ -25,10 +34,6 @@ output::Table comparison_table(const Comparison& study, const std::string& capti
 output::Table orders_table(const Convergence& study);
 /// What every second of the levels of the error costs.
 output::Table costs_table(const Comparison& study);
-/// What errors cost on the variants of one scene: one row an integrator and level, one column a value.
-output::Table varied_costs_table(const std::vector<Comparison>& variants, const Variation& variation);
-output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector<Comparison>& variants,
-                                   const Variation& variation);
 output::Table drift_table(const DriftStudy& study);
 /// One row a run: what becomes of every invariant, how the run ended and the time it reached.
 output::Table drift_runs_table(const DriftStudy& study);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "src/error.hpp"
 #include "src/scene_reader.hpp"
 
@@ -13,6 +15,47 @@ std::string SurveyPlan::key() const {
     if (c == ' ' || c == '-') c = '_';
   return key;
 }
+
+namespace {
+
+/// Labels become names of files.
+bool is_label(const std::string& text) {
+  return std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+}
+
+VaryPlan read_vary(Section& section) {
+  section.only({"label", "scene", "key", "values", "what", "t_end", "set", "steps", "tols", "integrators",
+                "full_only"});
+  VaryPlan plan;
+  const char* label = "a name of letters, digits, - and _";
+  plan.label = section.text("label", label);
+  if (!is_label(plan.label)) section.fail("label", section.shown("label"), label);
+  plan.scene = section.text("scene", "a scene's name");
+  plan.variation.key = section.text("key", "a key of the scene, as \"beam.EA\"");
+  const char* values = "values of the key, every one once";
+  plan.variation.values = section.values("values", values);
+  if (const std::string twice = plan.variation.repeated(); !twice.empty())
+    section.fail("values", twice + " twice", values);
+  if (section.has("what")) plan.stability = section.one_of("what", {"errors", "stability"}) == "stability";
+  if (section.has("t_end")) plan.t_end = section.positive("t_end", "a positive number (s)");
+  plan.set = section.texts("set", "texts key.path=value");
+  const auto positive = [&](const char* key, const char* expected) {
+    if (!section.has(key)) return std::vector<double>{};
+    std::vector<double> list = section.list(key, expected);
+    if (list.empty() || std::ranges::any_of(list, [](double value) { return value <= 0.0; }))
+      section.fail(key, section.shown(key), expected);
+    return list;
+  };
+  plan.steps = positive("steps", "one or more positive numbers (s)");
+  plan.tols = positive("tols", "one or more tolerances");
+  plan.integrators = section.texts("integrators", "names of integrators");
+  plan.full_only = section.flag("full_only");
+  return plan;
+}
+
+}  // namespace
 
 StudyPlan read_study(const std::string& path) {
   toml::table table;
@@ -80,6 +123,7 @@ StudyPlan read_study(const std::string& path) {
     peers.integrators = section.texts("integrators", "names of integrators");
     plan.peers.push_back(std::move(peers));
   });
+  each("vary", [&](Section& section) { plan.vary.push_back(read_vary(section)); });
   root.finish();
   return plan;
 }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "src/study/vary.hpp"
+
 namespace gnomon {
 
 struct DriftPlan {
@@ -44,6 +46,19 @@ struct PeerPlan {
   std::vector<std::string> integrators;
 };
 
+/// One key of a scene takes each of several values.
+struct VaryPlan {
+  std::string label;  ///< files are called by it
+  std::string scene;
+  Variation variation;
+  bool stability = false;           ///< the largest step instead of errors and costs
+  std::optional<double> t_end;      ///< s; none: the scene's
+  std::vector<std::string> set;     ///< further changes of the scene, key.path=value
+  std::vector<double> steps, tols;  ///< empty: the default ladder; one alone: errors without their cost
+  std::vector<std::string> integrators;
+  bool full_only = false;  ///< left out of a quick study
+};
+
 /// What `bench` does with one model, read from its study.toml.
 struct StudyPlan {
   std::vector<std::string> converge, quick_converge, compare, quick_compare;
@@ -53,6 +68,7 @@ struct StudyPlan {
   std::vector<SpeedPlan> speed;
   std::vector<SurveyPlan> survey;
   std::vector<PeerPlan> peers;
+  std::vector<VaryPlan> vary;
 };
 
 /// Throws UsageError if the file does not fit.

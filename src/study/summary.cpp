@@ -16,14 +16,14 @@ long& count_of(std::vector<std::pair<Status, long>>& counts, Status status) {
 }  // namespace
 
 void RunCounts::add(const std::string& part, const SceneStudy& study) {
-  Part counted{part, {}};
+  if (parts_.empty() || parts_.back().name != part) parts_.push_back({part, {}});
+  Part& counted = parts_.back();
   for (const Row& row : study.rows) {
     ++count_of(counted.counts, row.result.status);
     if (row.result.status == Status::crashed)
       failures_.push_back(fmt::format("crashed: {} / {}, {}: {}", study.scene.name, row.scheme->name,
                                       row.setting.text(), row.result.message));
   }
-  parts_.push_back(std::move(counted));
 }
 
 output::Table RunCounts::table() const {

@@ -10,6 +10,7 @@ namespace gnomon {
 /// How the runs of a study ended, part by part.
 class RunCounts {
  public:
+  /// Studies of one part follow one another.
   void add(const std::string& part, const SceneStudy& study);
   /// One column a status that occurred; runs that crashed or were ended are told with their reasons.
   output::Table table() const;

@@ -9,10 +9,20 @@ namespace gnomon {
 
 /// One key of a scene takes each of several values.
 struct Variation {
+  /// Where the values stand on an axis.
+  struct Axis {
+    std::string label;
+    std::vector<double> values;
+  };
+
   std::string key;                  ///< as in --set, e.g. "beam.EA"
   std::vector<std::string> values;  ///< as they were written, TOML
   /// The values as numbers; none unless all of them are.
   std::optional<std::vector<double>> numbers() const;
+  /// The numbers, or of lists that differ in one place the numbers there; none for other values.
+  std::optional<Axis> axis() const;
+  /// A value that is there twice, in whatever spelling; empty if there is none.
+  std::string repeated() const;
   /// The key and its k-th value, as --set takes them.
   std::string assignment(std::size_t k) const { return key + "=" + values[k]; }
 };

@@ -189,3 +189,54 @@ TEST_CASE("bench: a store without a session, or none, is refused", "[cli][store]
   CHECK(says(refusal({"bench", "--study", "none.toml", "--out", "new"}), "none.toml"));
   CHECK(folder.entries() == 1);
 }
+
+TEST_CASE("bench: a part over one parameter has a column for each value", "[cli][store]") {
+  const StudyFolder study(R"(
+[[vary]]
+label  = "spin"
+scene  = "asymmetric-free-top"
+key    = "body.angular_momentum"
+values = [[1.8, 0.4, -0.9], [1.8, 0.4, 0.0]]
+steps  = [0.05]
+integrators = ["rkmk4", "exact-free-top"]
+[[vary]]
+label  = "largest"
+what   = "stability"
+scene  = "free-flight"
+t_end  = 4.0
+key    = "beam.EA"
+values = [1e4, 1e6]
+integrators = ["beam-verlet"]
+[[vary]]
+label  = "later"
+scene  = "asymmetric-free-top"
+key    = "body.no_such_key"
+values = [1]
+full_only = true
+)");
+  const Outcome outcome = study.bench();
+  INFO(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const std::string errors = study.file("vary-spin.csv");
+  CHECK(
+      errors.starts_with("integrator,setting,\"error_at_[1.8, 0.4, -0.9]\",\"error_at_[1.8, 0.4, 0.0]\"\n"
+                         "bound of the reference,,"));
+  const Json spin = Json::parse(study.file("vary-spin.json"));
+  REQUIRE(spin["runs"].size() == 4);
+  for (const Json& run : spin["runs"])
+    if (run["integrator"] == "rkmk4") {
+      CHECK(run["error"]["orientation"].get<double>() > 1e-7);
+      CHECK(says(errors, run["error"]["orientation"].dump().substr(0, 12)));
+    }
+  CHECK(says(study.file("vary-spin.md"), "x in body.angular_momentum = [1.8, 0.4, x]"));
+  const Json largest = Json::parse(study.file("vary-largest.json"))["stability"];
+  REQUIRE(largest.size() == 2);
+  // Ten times the wave speed, a tenth of the step.
+  const double ratio = largest[0]["largest_step"].get<double>() / largest[1]["largest_step"].get<double>();
+  CHECK(ratio > 8.0);
+  CHECK(ratio < 13.0);
+  CHECK(!says(study.file("README.md"), "later"));
+  const Outcome again = run_program({"report", "out"}, study.folder.path());
+  CHECK(again.exit_code == 0);
+  CHECK(study.file("vary-spin.csv") == errors);
+}

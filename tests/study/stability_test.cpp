@@ -155,3 +155,17 @@ TEST_CASE("vary: values are split where no bracket or quote is open", "[study][v
   for (const char* wrong : {"a", "a=", "=1", "a=1,", "a=1,,2", "a=1,1", "a=10,1e1", ""})
     CHECK_THROWS_AS(read_variation("--vary", wrong), UsageError);
 }
+
+TEST_CASE("vary: lists that differ in one place have an axis", "[study][vary]") {
+  const auto axis = [](const std::string& text) { return read_variation("--vary", text).axis(); };
+  const auto numbers = axis("g=1,+2");
+  REQUIRE(numbers);
+  CHECK(numbers->label == "g");
+  CHECK(numbers->values == std::vector<double>{1.0, 2.0});
+  const auto lists = axis("a.b=[0, 2, 1e-2],[0.0,2,1e-4],[0,2,0]");
+  REQUIRE(lists);
+  CHECK(lists->label == "x in a.b = [0, 2, x]");
+  CHECK(lists->values == std::vector<double>{1e-2, 1e-4, 0.0});
+  for (const char* none : {"a=[1,2],[3,4]", "a=[1,2],[1]", "a=[1],[\"x\"]", "a=1,[2]", "a=\"x\",\"y\""})
+    CHECK_FALSE(axis(none));
+}

@@ -42,6 +42,13 @@ TEST_CASE("study file: what it says is read", "[study]") {
   REQUIRE(beams.drift.size() == 3);
   CHECK(beams.drift[1].steps == std::vector<double>{0.05, 0.1, 0.25, 0.5});
   CHECK(!beams.drift[1].tol);
+  REQUIRE(!plan.vary.empty());
+  CHECK(plan.vary[0].variation.key == "body.angular_momentum");
+  CHECK(plan.vary[0].variation.values.front() == "[0.0, 2.0, 0.01]");
+  CHECK(plan.vary[0].steps == std::vector<double>{0.05});
+  CHECK(plan.vary[0].tols == std::vector<double>{1e-10});
+  CHECK(plan.vary[0].full_only);
+  CHECK(!plan.vary[0].stability);
   CHECK(plan.speed.size() >= 4);
   REQUIRE(plan.survey.size() >= 4);
   CHECK(plan.survey[1].label == "space moment");
@@ -70,4 +77,15 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
   CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = 1\ntol = 1\n") ==
         "4: speed[0].tol: found an unknown key, expected one of scene, step, steps, parts, newton_tol, set, "
         "instructions_key, full_only");
+  const std::string vary = "[[vary]]\nlabel = \"a\"\nscene = \"a\"\nkey = \"b\"\n";
+  CHECK(refusal(vary + "values = [1, \"none\", [2]]\nwhat = \"stability\"\n") == "nothing");
+  CHECK(refusal(vary) == "1: vary[0].values: found nothing, expected values of the key, every one once");
+  CHECK(refusal(vary + "values = [1, 1.0]\n") ==
+        "5: vary[0].values: found 1.0 twice, expected values of the key, every one once");
+  CHECK(refusal(vary + "values = [1]\nwhat = \"speed\"\n") ==
+        "6: vary[0].what: found \"speed\", expected errors or stability");
+  CHECK(refusal(vary + "values = [1]\nsteps = [0.1, 0]\n") ==
+        "6: vary[0].steps: found [0.1, 0], expected one or more positive numbers (s)");
+  CHECK(refusal("[[vary]]\nlabel = \"a/b\"\n") ==
+        "2: vary[0].label: found \"a/b\", expected a name of letters, digits, - and _");
 }
