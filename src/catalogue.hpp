@@ -76,17 +76,20 @@ struct Peer {
   double (*run)(const void* model, double t_end, double tol, std::vector<double>& state, long& evaluations);
 };
 
-/// A part of a model's steps that is timed by itself, one cell of a table: `variant` of it at a size.
+/// A part of a model's steps that is timed by itself, one cell of the table "`what`, by `part`": `variant` of
+/// it at a size.
 struct PartTask {
-  std::string_view model, part, variant, size_name;
+  std::string_view model, what, part, variant, size_name;
   int size, index;
   double (*run)(int index, int size);  ///< thread CPU seconds; not finite on failure
+  bool full_only = false;              ///< left out of a quick study
 };
 
-/// An adaptive integrator that references of stiff motions are made with, and its tolerances.
+/// An integrator that references of stiff motions are made with.
 struct ReferenceSolver {
   std::string_view integrator;
-  double tight, loose;
+  double tight, loose;  ///< tolerances; 0 of one that takes equal steps
+  double share = 0.25;  ///< of the time for all solvers
 };
 
 template <class... T>

@@ -11,7 +11,7 @@ namespace gnomon {
 namespace {
 
 // Raised whenever the way references are computed changes.
-constexpr int format_version = 6;
+constexpr int format_version = 7;
 
 std::string key_text(const Scene& scene, const std::vector<double>& times) {
   std::string text = fmt::format("gnomon reference {} {}", format_version, scene.physics_hash());

@@ -96,6 +96,18 @@ void apply_override(toml::table& root, const std::string& option, SceneSource& s
   source.overrides[path] = label;
 }
 
+/// "a.b,c.d=value" as "a.b=value" and "c.d=value".
+std::vector<std::string> assignments(const std::string& option) {
+  const std::size_t equals = std::min(option.find('='), option.size());
+  std::vector<std::string> list;
+  for (std::size_t begin = 0; begin <= equals;) {
+    const std::size_t end = std::min(option.find(',', begin), equals);
+    list.push_back(option.substr(begin, end - begin) + option.substr(equals));
+    begin = end + 1;
+  }
+  return list;
+}
+
 /// Names become names of files and parts of tables.
 bool is_plain_name(std::string_view name) {
   return name.size() <= 100 && name.front() != '.' && name.front() != '-' &&
@@ -154,7 +166,9 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
 
   toml::table table = parse_file(path);
   for (const std::string& option : changes.set) apply_override(table, option, source);
-  if (changes.vary) apply_override(table, *changes.vary, source, "--vary");
+  if (changes.vary)
+    for (const std::string& option : assignments(*changes.vary))
+      apply_override(table, option, source, "--vary");
 
   Section root(table, "", source);
   root.refuse_misspelt({"name", "description", "model", "t_end"});

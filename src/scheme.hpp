@@ -30,8 +30,9 @@ constexpr std::string_view to_string(Stepping stepping) {
 
 /// What solves the linear systems of beam schemes: elimination of the chain's blocks, or solvers that know
 /// less of it, to be compared with.
-enum class LinearSolver { block, band, klu, sparselu };
-inline constexpr std::array<std::string_view, 4> linear_solver_names{"block", "band", "klu", "sparselu"};
+enum class LinearSolver { block, band, lapack, klu, sparselu };
+inline constexpr std::array<std::string_view, 5> linear_solver_names{"block", "band", "lapack", "klu",
+                                                                     "sparselu"};
 constexpr std::string_view to_string(LinearSolver solver) {
   return linear_solver_names[static_cast<std::size_t>(solver)];
 }

@@ -3,6 +3,7 @@
 #include "integrators/beam/bathe.hpp"
 #include "integrators/beam/energy_momentum_4.hpp"
 #include "integrators/beam/generalized_alpha.hpp"
+#include "integrators/beam/large_meshes.hpp"
 #include "integrators/beam/linear_solvers.hpp"
 #include "integrators/beam/midpoint.hpp"
 #include "integrators/beam/mixed_midpoint.hpp"
@@ -26,8 +27,9 @@ void add_beam_schemes(Catalogue& catalogue) {
                                                BeamBathe,                   //
                                                BeamVerlet,                  //
                                                BeamVerletConsistent>{});
-  const std::vector<PartTask> tasks = linear_solver_tasks();
-  catalogue.parts.insert(catalogue.parts.end(), tasks.begin(), tasks.end());
+  catalogue.reference_solvers.push_back({BeamEnergyMomentum4::info.name, 0.0, 0.0, 0.2});
+  for (const std::vector<PartTask>& tasks : {linear_solver_tasks(), large_mesh_tasks()})
+    catalogue.parts.insert(catalogue.parts.end(), tasks.begin(), tasks.end());
 }
 
 }  // namespace gnomon

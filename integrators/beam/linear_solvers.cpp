@@ -61,8 +61,8 @@ std::vector<PartTask> linear_solver_tasks() {
   std::vector<PartTask> tasks;
   for (std::size_t solver = 0; solver < linear_solver_names.size(); ++solver)
     for (int size : {20, 200, 2000})
-      tasks.push_back({"planar_beam", "linear solver", linear_solver_names[solver], "elements", size,
-                       static_cast<int>(solver), run});
+      tasks.push_back({"planar_beam", "Time of one factorisation and solution", "linear solver",
+                       linear_solver_names[solver], "elements", size, static_cast<int>(solver), run});
   return tasks;
 }
 

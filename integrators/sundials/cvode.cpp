@@ -6,7 +6,7 @@ namespace {
 
 class Cvode final : public Session {
  public:
-  Cvode(const OdeSystem& system, const RunSpec& spec, bool adams)
+  Cvode(const OdeSystem& system, const RunSpec& spec, bool adams, bool krylov)
       : Session(system, spec),
         system_(system),
         memory_(CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_), CVodeFree) {
@@ -20,9 +20,14 @@ class Cvode final : public Session {
     // Newton also for Adams: on fast tops it takes half the steps of the fixed-point iteration at tight
     // tolerances.
     newton_ = system.newton_solver();
-    linear_ = newton_ ? make_linear(*newton_, context_) : make_linear(system, y_.get(), context_);
+    if (krylov && !newton_) throw std::logic_error("GMRES without a preconditioner");
+    linear_ = krylov    ? make_krylov(y_.get(), context_)
+              : newton_ ? make_linear(*newton_, context_)
+                        : make_linear(system, y_.get(), context_);
     check(CVodeSetLinearSolver(memory_, linear_.solver.get(), linear_.matrix.get()), "CVodeSetLinearSolver");
-    if (newton_)
+    if (krylov)
+      check(CVodeSetPreconditioner(memory_, set_up, precondition), "CVodeSetPreconditioner");
+    else if (newton_)
       check(CVodeSetLinSysFn(memory_, linear_system), "CVodeSetLinSysFn");
     else
       check(CVodeSetJacFn(memory_, jacobian), "CVodeSetJacFn");
@@ -47,7 +52,10 @@ class Cvode final : public Session {
     CVodeGetNumErrTestFails(memory_, &failures);
     CVodeGetNumNonlinSolvConvFails(memory_, &convergence);
     CVodeGetNumNonlinSolvIters(memory_, &iterations);
-    CVodeGetNumJacEvals(memory_, &jacobians);
+    if (linear_.matrix)
+      CVodeGetNumJacEvals(memory_, &jacobians);
+    else
+      CVodeGetNumPrecEvals(memory_, &jacobians);
     CVodeGetNumLinSolvSetups(memory_, &setups);
     cost.steps += steps;
     cost.rejected += failures + convergence;
@@ -92,6 +100,22 @@ class Cvode final : public Session {
     });
   }
 
+  /// The preconditioner, an elimination with the tangent and gamma of the last set-up.
+  static int set_up(sunrealtype t, N_Vector y, N_Vector, int jok, int* current, sunrealtype gamma,
+                    void* user) {
+    return linear_system(t, y, nullptr, nullptr, jok, current, gamma, user, nullptr, nullptr, nullptr);
+  }
+  static int precondition(sunrealtype, N_Vector, N_Vector, N_Vector r, N_Vector z, sunrealtype, sunrealtype,
+                          int, void* user) {
+    auto* self = static_cast<Cvode*>(user);
+    return self->guarded([&] {
+      double* values = N_VGetArrayPointer(z);
+      std::copy_n(N_VGetArrayPointer(r), self->size_, values);
+      self->newton_->solve(values);
+      require_finite(values, self->size_);
+    });
+  }
+
   const OdeSystem& system_;
   std::unique_ptr<NewtonSolver> newton_;
   Memory memory_;
@@ -100,8 +124,9 @@ class Cvode final : public Session {
 
 }  // namespace
 
-std::unique_ptr<AdaptiveSolver> make_cvode(const OdeSystem& system, const RunSpec& spec, bool adams) {
-  return std::make_unique<Cvode>(system, spec, adams);
+std::unique_ptr<AdaptiveSolver> make_cvode(const OdeSystem& system, const RunSpec& spec, bool adams,
+                                           bool krylov) {
+  return std::make_unique<Cvode>(system, spec, adams, krylov);
 }
 
 }  // namespace gnomon::sundials

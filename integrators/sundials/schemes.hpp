@@ -12,7 +12,9 @@
 
 namespace gnomon::sundials {
 
-std::unique_ptr<AdaptiveSolver> make_cvode(const OdeSystem& system, const RunSpec& spec, bool adams);
+/// `krylov`: Newton's systems by GMRES, preconditioned by the system's own solver, which it has to have.
+std::unique_ptr<AdaptiveSolver> make_cvode(const OdeSystem& system, const RunSpec& spec, bool adams,
+                                           bool krylov = false);
 /// By an explicit table of ERKStep or a diagonally implicit one of ARKStep, an ARKODE_ERKTableID or
 /// ARKODE_DIRKTableID. Throws std::runtime_error where there is none of that number.
 std::unique_ptr<AdaptiveSolver> make_arkode(const OdeSystem& system, const RunSpec& spec, int table);
@@ -62,6 +64,26 @@ struct CvodeBdf : OnOde {
   };
   static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
     return make_cvode(system, spec, false);
+  }
+};
+
+/// For meshes so large that a factorisation in every set-up is to be avoided.
+struct CvodeBdfGmres {
+  static constexpr SchemeInfo info{
+      .name = "cvode-bdf-gmres",
+      .family = "sundials",
+      .summary =
+          "CVODE, BDF of order 1 to 5 with variable step, Newton by GMRES without a matrix, preconditioned "
+          "by the model's own elimination with the tangent and step of earlier steps",
+      .citation = cvode_citation,
+      .form = "ode",
+      .stepping = Stepping::adaptive,
+  };
+  template <HasOde M>
+  requires requires(const M& model) { model.ode().newton_solver(); }
+  static std::unique_ptr<OdeSystem> system(const M& model) { return erase_ode(model); }
+  static std::unique_ptr<AdaptiveSolver> make(const OdeSystem& system, const RunSpec& spec) {
+    return make_cvode(system, spec, false, true);
   }
 };
 

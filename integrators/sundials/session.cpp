@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunlinsol/sunlinsol_klu.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
@@ -71,6 +72,13 @@ Linear make_linear(NewtonSolver& newton, SUNContext context) {
   linear.solver->ops->solve = solver_solve;
   linear.solver->ops->free = solver_free;
   linear.solver->content = &newton;
+  return linear;
+}
+
+Linear make_krylov(N_Vector like, SUNContext context) {
+  Linear linear;
+  linear.solver.reset(SUNLinSol_SPGMR(like, SUN_PREC_LEFT, 0, context));
+  if (!linear.solver) throw std::bad_alloc();
   return linear;
 }
 

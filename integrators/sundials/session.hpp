@@ -69,6 +69,9 @@ Linear make_linear(const FirstOrderSystem& system, N_Vector like, SUNContext con
 /// The solver of a system that eliminates its own; its matrix is empty.
 Linear make_linear(NewtonSolver& newton, SUNContext context);
 
+/// GMRES with a preconditioner on the left and no matrix.
+Linear make_krylov(N_Vector like, SUNContext context);
+
 /// Calls `fill(values)` on the entries of a dense matrix (all, by columns) or of a sparse one (in the
 /// pattern's order).
 double* matrix_values(SUNMatrix matrix, const std::optional<SparsePattern>& pattern);

@@ -9,6 +9,15 @@
 #include <stdexcept>
 #include <utility>
 
+extern "C" {
+// LAPACK by its Fortran names; SuiteSparse needs it too.
+void dgbtrf_(const int* rows, const int* columns, const int* lower, const int* upper, double* band,
+             const int* width, int* pivots, int* info);
+void dgbtrs_(const char* which, const int* size, const int* lower, const int* upper, const int* sides,
+             const double* band, const int* width, const int* pivots, double* right, const int* right_size,
+             int* info, std::size_t which_length);
+}
+
 namespace gnomon::planar_beam {
 namespace {
 
@@ -16,7 +25,7 @@ using Starts = std::vector<long>;
 
 /// LU factors of a band matrix with exchanges of rows, column by column, as LAPACK's dgbtrf stores them: an
 /// entry (i, j) at row `upper + lower + i - j` of column j.
-class Band final : public Factorisation {
+class Band : public Factorisation {
  public:
   Band(const Starts& start, const std::vector<long>& row)
       : start_(start), row_(row), size_(static_cast<int>(start.size()) - 1) {
@@ -28,9 +37,7 @@ class Band final : public Factorisation {
     pivot_.resize(size_);
   }
   bool factorise(const std::vector<double>& values) override {
-    std::fill(band_.begin(), band_.end(), 0.0);
-    for (int j = 0; j < size_; ++j)
-      for (long k = start_[j]; k < start_[j + 1]; ++k) at(static_cast<int>(row_[k]), j) = values[k];
+    fill(values);
     for (int j = 0; j < size_; ++j) {
       const int last = std::min(size_ - 1, j + lower_);
       int pivot = j;
@@ -62,7 +69,12 @@ class Band final : public Factorisation {
     }
   }
 
- private:
+ protected:
+  void fill(const std::vector<double>& values) {
+    std::fill(band_.begin(), band_.end(), 0.0);
+    for (int j = 0; j < size_; ++j)
+      for (long k = start_[j]; k < start_[j + 1]; ++k) at(static_cast<int>(row_[k]), j) = values[k];
+  }
   double& at(int i, int j) {
     return band_[static_cast<std::size_t>(width_) * j + static_cast<std::size_t>(2 * lower_ + i - j)];
   }
@@ -71,6 +83,23 @@ class Band final : public Factorisation {
   int size_, lower_ = 0, width_ = 0;
   std::vector<double> band_;
   std::vector<int> pivot_;
+};
+
+/// The same by LAPACK, whichever is installed.
+class Lapack final : public Band {
+ public:
+  using Band::Band;
+  bool factorise(const std::vector<double>& values) override {
+    fill(values);
+    int info = 0;
+    dgbtrf_(&size_, &size_, &lower_, &lower_, band_.data(), &width_, pivot_.data(), &info);
+    return info == 0;
+  }
+  void solve(double* x) override {
+    const int one = 1;
+    int info = 0;
+    dgbtrs_("N", &size_, &lower_, &lower_, &one, band_.data(), &width_, pivot_.data(), x, &size_, &info, 1);
+  }
 };
 
 /// SuiteSparse KLU. The pattern is analysed once and the first pivots are kept while they serve (T.A. Davis,
@@ -183,6 +212,9 @@ AssembledChain& AssembledChain::operator=(const AssembledChain& other) {
 
 void AssembledChain::make_solver() {
   switch (kind_) {
+    case LinearSolver::lapack:
+      solver_ = std::make_unique<Lapack>(column_start_, row_);
+      return;
     case LinearSolver::klu:
       solver_ = std::make_unique<Klu>(column_start_, row_);
       return;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -120,6 +121,9 @@ struct Data {
   std::vector<double> u, v;                  ///< initial nodal values as in State; empty: rigid, unstrained
   std::array<Support, 2> supports{};         ///< of the start and the end
   std::vector<Load> loads;
+  /// Instructions of the kernels for linear elements: "scalar", the name of an InstructionSet, or empty: what
+  /// fits.
+  std::string instructions;
   double horizon = 1.0;  ///< s, the time the scene runs to; sets the scale of what a constant load moves
 };
 

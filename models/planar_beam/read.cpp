@@ -10,6 +10,7 @@
 #include "models/planar_beam/planar_beam.hpp"
 #include "models/planar_beam/read_parts.hpp"
 #include "models/planar_beam/saved_state.hpp"
+#include "src/instruction_set.hpp"
 #include "src/scene_reader.hpp"
 
 namespace gnomon::planar_beam {
@@ -109,6 +110,17 @@ bool read_initial(Table& root, Data& data, Json& resolved) {
   return false;
 }
 
+/// How, not what: nothing where the scene says nothing.
+void read_execution(Table& root, Data& data, Json& resolved) {
+  std::optional<Table> execution = root.section("execution");
+  if (!execution) return;
+  execution->only({"instructions"});
+  std::vector<std::string> here{"scalar"};
+  for (const InstructionSet set : instruction_sets()) here.emplace_back(to_string(set));
+  data.instructions = execution->one_of("instructions", here);
+  resolved["execution"] = {{"instructions", data.instructions}};
+}
+
 /// The initial motion must be one that the supports allow.
 template <int p>
 void check_motion(const PlanarBeam<p>& beam, const Table& root) {
@@ -158,7 +170,7 @@ std::shared_ptr<const AnyModel> make(Data& data, bool at_rest, const Table& root
 }  // namespace
 
 ParsedModel read(Section& root, double t_end) {
-  root.refuse_misspelt({"beam", "initial", "supports", "loads"});
+  root.refuse_misspelt({"beam", "initial", "supports", "loads", "execution"});
   std::optional<Table> table = root.section("beam");
   if (!table)
     root.fail("beam", "nothing", "a table [beam] with length, elements, order and the section's data");
@@ -170,6 +182,7 @@ ParsedModel read(Section& root, double t_end) {
   const bool at_rest = read_initial(root, data, resolved);
   read_supports(root, data, resolved);
   read_loads(root, data, resolved);
+  read_execution(root, data, resolved);
   ParsedModel parsed;
   parsed.model = order == 1   ? make<1>(data, at_rest, root)
                  : order == 2 ? make<2>(data, at_rest, root)

@@ -146,6 +146,20 @@ class Study {
                         [=, this, chosen = on(scene)](output::Progress& progress) {
                           return make_comparison(scene, chosen, progress);
                         }});
+    for (const WorkPlan& plan : study.work) {
+      if (session_.quick) continue;
+      const Scene scene = load_scene(context_.catalogue, plan.scene);
+      StudyOptions planned = options;
+      planned.integrators = plan.integrators;
+      planned.steps = plan.steps;
+      planned.tols = plan.tols;
+      planned.time_limit = plan.time_limit;
+      planned.timing_budget = plan.timing_budget;
+      parts_.push_back(
+          {"compare-" + scene.name, "Work and precision: " + scene.name,
+           compare_runs(context_.catalogue, scene, planned),
+           [=, this](output::Progress& progress) { return make_comparison(scene, planned, progress); }});
+    }
     for (const DriftPlan& plan : study.drift) {
       if (session_.quick && !plan.quick_t_end) continue;
       const bool ladder = plan.steps.size() > 1;
@@ -224,9 +238,12 @@ class Study {
     document.add_comparison(study);
     output::Table costs = costs_table(study);
     costs.notes.push_back(sundials_line(context_.catalogue));
+    std::string arguments = "compare " + scene.name;
+    if (!options.steps.empty()) arguments += fmt::format(" --steps {:g}", fmt::join(options.steps, ","));
+    if (!options.tols.empty()) arguments += fmt::format(" --tols {:g}", fmt::join(options.tols, ","));
     publish({"compare-" + scene.name,
              "Work and precision: " + scene.name,
-             command("compare " + scene.name, options),
+             command(arguments, options),
              {costs, comparison_table(study, "Runs")},
              work_precision_figure(context_.catalogue, study),
              {}},
@@ -342,7 +359,7 @@ class Study {
       tables.push_back(wrapper_table(study));
       tables.back().notes.push_back(sundials_line(context_.catalogue));
     }
-    if (!study.parts.empty()) tables.push_back(parts_table(study));
+    for (output::Table& table : parts_tables(study)) tables.push_back(std::move(table));
     publish({model + "-speed", "Speed: " + model, "", tables, {}, {}}, document);
     return true;
   }

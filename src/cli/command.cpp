@@ -142,7 +142,7 @@ StudyOptions study_options(const Request& request) {
   if (!request.linear_solver.empty()) {
     const auto found = std::ranges::find(linear_solver_names, request.linear_solver);
     if (found == linear_solver_names.end())
-      refuse("--linear-solver", request.linear_solver, "block, band, klu or sparselu");
+      refuse("--linear-solver", request.linear_solver, "block, band, lapack, klu or sparselu");
     options.scheme.linear_solver = static_cast<LinearSolver>(found - linear_solver_names.begin());
   }
   options.reference = !request.no_reference;

@@ -61,13 +61,13 @@ WrapperTime measure(Runner& runner, const Yardstick& yardstick) {
   return time;
 }
 
-void measure_parts(Runner& runner, const std::vector<Scene>& scenes, const TimingPlan& plan,
+void measure_parts(Runner& runner, const std::vector<Scene>& scenes, const TimingPlan& plan, bool quick,
                    std::vector<PartTime>& parts) {
   std::vector<TimedTask> tasks;
   std::vector<std::string> names;
   for (const PartTask& task : runner.catalogue().parts) {
     const auto is_of = [&](const Scene& scene) { return scene.model_name == task.model; };
-    if (std::none_of(scenes.begin(), scenes.end(), is_of)) continue;
+    if (std::none_of(scenes.begin(), scenes.end(), is_of) || (quick && task.full_only)) continue;
     parts.push_back({&task, {}});
     names.push_back(fmt::format("{}: {}, {} {}", task.part, task.variant, task.size, task.size_name));
     tasks.push_back({[&task] { return task.run(task.index, task.size); }});
@@ -75,6 +75,14 @@ void measure_parts(Runner& runner, const std::vector<Scene>& scenes, const Timin
   if (tasks.empty()) return;
   const auto stats = runner.time("part times", {}, names, tasks, plan);
   for (std::size_t k = 0; k < parts.size(); ++k) parts[k].run = stats[k];
+}
+
+/// The sets of instructions that a plan is about and this machine has.
+std::vector<std::string> sets_of(const SpeedPlan& plan) {
+  std::vector<std::string> sets;
+  if (plan.scalar) sets.emplace_back("scalar");
+  for (const InstructionSet set : instruction_sets()) sets.emplace_back(to_string(set));
+  return sets;
 }
 
 std::string unstable_mark(const TimingStats& stats) { return stats.unstable ? "*" : ""; }
@@ -96,7 +104,8 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
     scenes.push_back(load_scene(runner.catalogue(), plan.scene, changes));
     for (const SchemeInfo* scheme : runner.catalogue().schemes_for(*scenes.back().model)) {
       if (scheme->stepping == Stepping::adaptive) continue;
-      if (!integrators.empty() && std::ranges::find(integrators, scheme->name) == integrators.end()) continue;
+      const std::vector<std::string>& shown = plan.integrators.empty() ? integrators : plan.integrators;
+      if (!shown.empty() && std::ranges::find(shown, scheme->name) == shown.end()) continue;
       const bool closed = scheme->stepping == Stepping::closed_form;
       RunSpec spec;
       spec.t_end = scenes.back().t_end;
@@ -126,7 +135,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
     if (plan.instructions_key.empty()) {
       add(plan, "");
     } else {
-      for (const InstructionSet set : instruction_sets()) add(plan, std::string(to_string(set)));
+      for (const std::string& name : sets_of(plan)) add(plan, name);
     }
   }
   TimingPlan plan;
@@ -141,7 +150,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
   };
   for (const Yardstick& yardstick : runner.catalogue().yardsticks)
     if (is_planned(yardstick)) study.wrappers.push_back(measure(runner, yardstick));
-  measure_parts(runner, scenes, plan, study.parts);
+  measure_parts(runner, scenes, plan, quick, study.parts);
   return study;
 }
 
@@ -224,12 +233,14 @@ output::Table wrapper_table(const SpeedStudy& study) {
   return table;
 }
 
-output::Table parts_table(const SpeedStudy& study) {
+namespace {
+
+output::Table parts_table(const SpeedStudy& study, std::string_view part) {
   output::Table table;
-  const std::string part(study.parts.front().task->part);
-  table.caption = fmt::format("Time of one factorisation and solution, by {}", part);
-  table.columns = {{"variant", part, output::Align::left}};
+  table.columns = {{"variant", std::string(part), output::Align::left}};
   for (const PartTime& time : study.parts) {
+    if (time.task->part != part) continue;
+    table.caption = fmt::format("{}, by {}", time.task->what, part);
     const std::string key = fmt::format("us_{}", time.task->size);
     const auto has = [&](const output::Column& column) { return column.key == key; };
     if (std::none_of(table.columns.begin(), table.columns.end(), has))
@@ -241,9 +252,22 @@ output::Table parts_table(const SpeedStudy& study) {
     table.rows.back().push_back(median);
   }
   table.notes.push_back(
-      "medians, interleaved, one core; the pattern analysed beforehand, the same pivots where "
-      "they serve; * repetitions differ by more than 5 %");
+      "medians, interleaved, one core; where there is a pattern, it is analysed beforehand, with the same "
+      "pivots where they serve; * repetitions differ by more than 5 %");
   return table;
+}
+
+}  // namespace
+
+std::vector<output::Table> parts_tables(const SpeedStudy& study) {
+  std::vector<output::Table> tables;
+  std::vector<std::string_view> parts;
+  for (const PartTime& time : study.parts) {
+    if (std::ranges::find(parts, time.task->part) != parts.end()) continue;
+    parts.push_back(time.task->part);
+    tables.push_back(parts_table(study, parts.back()));
+  }
+  return tables;
 }
 
 nlohmann::ordered_json speed_json(const SpeedStudy& study) {

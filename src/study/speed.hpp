@@ -50,8 +50,8 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
 
 output::Table step_times_table(const SpeedStudy& study);
 output::Table wrapper_table(const SpeedStudy& study);
-/// Variants by sizes.
-output::Table parts_table(const SpeedStudy& study);
+/// Variants by sizes, a table for each part that is timed.
+std::vector<output::Table> parts_tables(const SpeedStudy& study);
 nlohmann::ordered_json speed_json(const SpeedStudy& study);
 
 }  // namespace gnomon

@@ -59,7 +59,7 @@ ReferenceStates Runner::reference(const Scene& scene, const StudyOptions& option
     return none;
   }
   const ReferenceStates& reference = references_.get(
-      scene, {scene.t_end}, [&] { return solver_reference(catalogue_, scene, 20.0, &stop_); });
+      scene, {scene.t_end}, [&] { return solver_reference(catalogue_, scene, 60.0, &stop_); });
   if (keeper_ && !stopped()) keeper_->remember("reference", identity, reference_json(reference));
   return reference;
 }
@@ -157,7 +157,9 @@ void Runner::time(const Scene& scene, std::vector<Row>& rows, const StudyOptions
                       {"max_steps", options.max_steps},
                       {"time_limit", options.time_limit},
                       {"options", options_json(options.scheme)}};
-  const std::vector<TimingStats> stats = time("times", identity, names, tasks, {});
+  TimingPlan plan;
+  plan.budget_seconds = options.timing_budget;
+  const std::vector<TimingStats> stats = time("times", identity, names, tasks, plan);
   for (std::size_t k = 0; k < timed.size(); ++k)
     if (stats[k].repetitions > 0) timed[k]->timing = stats[k];
 }

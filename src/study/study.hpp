@@ -1,6 +1,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct StudyOptions {
   int watch = 256;
   long max_steps = 100'000'000;
   double time_limit = 600.0;  ///< s
+  /// CPU s for the repetitions of all runs on a scene; each is repeated at least once.
+  double timing_budget = std::numeric_limits<double>::infinity();
   SchemeOptions scheme;
   bool reference = true;
   bool timing = true;

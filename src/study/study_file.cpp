@@ -27,7 +27,7 @@ bool is_label(const std::string& text) {
 
 VaryPlan read_vary(Section& section) {
   section.only({"label", "scene", "key", "values", "what", "t_end", "set", "steps", "tols", "integrators",
-                "full_only"});
+                "time_limit", "timing_budget", "full_only"});
   VaryPlan plan;
   const char* label = "a name of letters, digits, - and _";
   plan.label = section.text("label", label);
@@ -51,6 +51,9 @@ VaryPlan read_vary(Section& section) {
   plan.steps = positive("steps", "one or more positive numbers (s)");
   plan.tols = positive("tols", "one or more tolerances");
   plan.integrators = section.texts("integrators", "names of integrators");
+  if (section.has("time_limit")) plan.time_limit = section.positive("time_limit", "a positive number (s)");
+  if (section.has("timing_budget"))
+    plan.timing_budget = section.positive("timing_budget", "a positive number (s)");
   plan.full_only = section.flag("full_only");
   return plan;
 }
@@ -96,7 +99,8 @@ StudyPlan read_study(const std::string& path) {
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](Section& section) {
-    section.only({"scene", "step", "steps", "parts", "newton_tol", "set", "instructions_key", "full_only"});
+    section.only({"scene", "step", "steps", "parts", "newton_tol", "set", "instructions_key", "scalar",
+                  "integrators", "full_only"});
     SpeedPlan speed{section.text("scene", "a scene's name"),
                     section.positive("step", "a positive number (s)")};
     if (section.has("steps")) speed.steps = section.integer("steps", 1, 100'000'000, "a number of steps");
@@ -104,8 +108,22 @@ StudyPlan read_study(const std::string& path) {
     if (section.has("newton_tol")) speed.newton_tol = section.positive("newton_tol", "a tolerance");
     speed.set = section.texts("set", "texts key.path=value");
     speed.instructions_key = section.text_or("instructions_key", "", "a key of the scene");
+    speed.scalar = section.flag("scalar");
+    speed.integrators = section.texts("integrators", "names of integrators");
     speed.full_only = section.flag("full_only");
     plan.speed.push_back(std::move(speed));
+  });
+  each("work", [&](Section& section) {
+    section.only({"scene", "steps", "tols", "integrators", "time_limit", "timing_budget"});
+    WorkPlan work;
+    work.scene = section.text("scene", "a scene's name");
+    work.steps = section.positives("steps", "positive numbers (s), at least two");
+    work.tols = section.positives("tols", "tolerances, at least two");
+    work.integrators = section.texts("integrators", "names of integrators");
+    if (section.has("time_limit")) work.time_limit = section.positive("time_limit", "a positive number (s)");
+    if (section.has("timing_budget"))
+      work.timing_budget = section.positive("timing_budget", "a positive number (s)");
+    plan.work.push_back(std::move(work));
   });
   each("survey", [&](Section& section) {
     section.only({"label", "scene", "step", "t_end"});

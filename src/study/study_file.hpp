@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,16 @@ struct DriftPlan {
   std::vector<std::string> integrators;
 };
 
+/// Work and precision on a scene whose runs are too long for the default ladders.
+struct WorkPlan {
+  std::string scene;
+  std::vector<double> steps, tols;
+  std::vector<std::string> integrators;
+  double time_limit = 300.0;  ///< s of one run
+  /// CPU s of all repetitions; at least one is made.
+  double timing_budget = std::numeric_limits<double>::infinity();
+};
+
 struct SpeedPlan {
   std::string scene;
   double step;
@@ -25,7 +36,9 @@ struct SpeedPlan {
   double newton_tol = 1e-10;
   /// A key of the scene that chooses the vector instructions: every set that the machine has is timed.
   std::string instructions_key{};
-  bool full_only = false;  ///< left out of a quick study
+  bool scalar = false;                     ///< that key knows "scalar", too: none of them
+  std::vector<std::string> integrators{};  ///< empty: those of the study
+  bool full_only = false;                  ///< left out of a quick study
 };
 
 /// One class of scenes in the survey of a model.
@@ -56,6 +69,9 @@ struct VaryPlan {
   std::vector<std::string> set;     ///< further changes of the scene, key.path=value
   std::vector<double> steps, tols;  ///< empty: the default ladder; one alone: errors without their cost
   std::vector<std::string> integrators;
+  double time_limit = 300.0;  ///< s of one run
+  /// CPU s of all repetitions on one value; at least one is made.
+  double timing_budget = std::numeric_limits<double>::infinity();
   bool full_only = false;  ///< left out of a quick study
 };
 
@@ -65,6 +81,7 @@ struct StudyPlan {
   std::vector<std::string> scorecard;    ///< scenes
   std::vector<std::string> integrators;  ///< that converge, compare and the scorecard show; empty: all
   std::vector<DriftPlan> drift;
+  std::vector<WorkPlan> work;  ///< not in a quick study
   std::vector<SpeedPlan> speed;
   std::vector<SurveyPlan> survey;
   std::vector<PeerPlan> peers;

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// One key of a scene takes each of several values.
+/// One key of a scene, or several keys in step, take each of several values.
 struct Variation {
   /// Where the values stand on an axis.
   struct Axis {
@@ -15,7 +15,7 @@ struct Variation {
     std::vector<double> values;
   };
 
-  std::string key;                  ///< as in --set, e.g. "beam.EA"
+  std::string key;                  ///< as in --set, e.g. "beam.EA"; several: "beam.EA,beam.GA"
   std::vector<std::string> values;  ///< as they were written, TOML
   /// The values as numbers; none unless all of them are.
   std::optional<std::vector<double>> numbers() const;
@@ -23,12 +23,12 @@ struct Variation {
   std::optional<Axis> axis() const;
   /// A value that is there twice, in whatever spelling; empty if there is none.
   std::string repeated() const;
-  /// The key and its k-th value, as --set takes them.
+  /// The key and its k-th value, as SceneChanges::vary takes them.
   std::string assignment(std::size_t k) const { return key + "=" + values[k]; }
 };
 
-/// Reads "key=v1,v2,.."; commas inside brackets and quotes belong to a value. Throws UsageError, with
-/// `option` in the message.
+/// Reads "key=v1,v2,.." or "key1,key2,..=v1,v2,.."; commas inside brackets and quotes belong to a value.
+/// Throws UsageError, with `option` in the message.
 Variation read_variation(const std::string& option, const std::string& text);
 
 }  // namespace gnomon

@@ -16,6 +16,8 @@ StudyOptions planned(const VaryPlan& plan, StudyOptions options) {
   options.integrators = plan.integrators;
   options.steps = plan.steps;
   options.tols = plan.tols;
+  options.time_limit = std::min(options.time_limit, plan.time_limit);
+  options.timing_budget = plan.timing_budget;
   if (plan.stability) options.time_limit = std::min(options.time_limit, 20.0);
   // One setting alone shows errors; what they cost takes several.
   options.timing = options.timing && !(plan.steps.size() < 2 && plan.tols.size() < 2 &&
@@ -90,6 +92,7 @@ std::string vary_command(const VaryPlan& plan) {
   if (plan.t_end) text += fmt::format(" --t-end {:g}", *plan.t_end);
   if (!plan.steps.empty()) text += fmt::format(" --steps {:g}", fmt::join(plan.steps, ","));
   if (!plan.tols.empty()) text += fmt::format(" --tols {:g}", fmt::join(plan.tols, ","));
+  if (plan.time_limit < 300.0) text += fmt::format(" --time-limit {:g}", plan.time_limit);
   return text;
 }
 

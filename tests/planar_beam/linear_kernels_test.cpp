@@ -23,7 +23,7 @@ using General = beam::Stepper<LinearBeam, turning>;
 
 /// All that this machine has.
 std::vector<const Kernels*> all_kernels() {
-  std::vector<const Kernels*> all{&beam::linear::paired_kernels()};
+  std::vector<const Kernels*> all{&beam::linear::scalar_kernels(), &beam::linear::paired_kernels()};
   for (InstructionSet set : instruction_sets())
     if (const Kernels* kernels = beam::linear::kernels(set)) all.push_back(kernels);
   return all;
@@ -139,6 +139,51 @@ TEST_CASE("beam kernels: steps allocate nothing, not even where they change hand
     CHECK(state.fast_steps() > 0);
     CHECK(state.fast_steps() < 40);
   }
+}
+
+TEST_CASE("beam kernels: scalar ones give the paired ones' results to the last bit", "[planar_beam]") {
+  for (int elements : {7, 20}) {
+    LinearBeam models[] = {moving_beam(elements, {true, false}, {}, 0.1), moving_beam(elements, {}, {}, 0.0)};
+    for (const LinearBeam& model : models) {
+      Fast<Turning::cayley> scalar(model, model.initial(), {}, &beam::linear::scalar_kernels()),
+          paired(model, model.initial(), {}, &beam::linear::paired_kernels());
+      for (int n = 0; n < 50; ++n) {
+        REQUIRE(scalar.step(model, 0.01 * n, 0.01) == Status::ok);
+        REQUIRE(paired.step(model, 0.01 * n, 0.01) == Status::ok);
+      }
+      CHECK(scalar.fast_steps() == 50);
+      CHECK(difference(scalar.view(model), paired.view(model)) == 0.0);
+      CHECK(difference(scalar.view(model), model.initial()) >= 1e-3);
+    }
+  }
+}
+
+TEST_CASE("beam kernels: a scene chooses its instructions by name", "[planar_beam]") {
+  using beam::linear::kernels_named;
+  CHECK(kernels_named("scalar") == &beam::linear::scalar_kernels());
+  CHECK(kernels_named("baseline") == &beam::linear::paired_kernels());
+  CHECK(kernels_named("sse9") == nullptr);
+  CHECK(&beam::linear::scalar_kernels() != &beam::linear::paired_kernels());
+  for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512})
+    CHECK(kernels_named(to_string(set)) == beam::linear::kernels(set));
+  // Wider sets solve in another order, so a choice shows in the last digits.
+  const auto last = [](const std::string& instructions) {
+    SceneChanges changes;
+    if (!instructions.empty()) changes.set = {"execution.instructions=\"" + instructions + "\""};
+    const Scene scene = load_scene(beam_catalogue(), "flying-beam", changes);
+    CHECK(scene.resolved.contains("execution") == !instructions.empty());
+    const auto& model = typed<LinearBeam>(scene);
+    CHECK(model.data().instructions == instructions);
+    auto state = beam::BeamMidpoint::start(model, model.initial());
+    for (int n = 0; n < 20; ++n)
+      REQUIRE(beam::BeamMidpoint::step(model, state, 0.005 * n, 0.005) == Status::ok);
+    CHECK(state.fast_steps() == 20);
+    return beam::BeamMidpoint::view(model, state);
+  };
+  const auto scalar = last("scalar"), fitting = last("");
+  CHECK(difference(scalar, last("baseline")) == 0.0);
+  CHECK(difference(scalar, fitting) <= 1e-7);
+  if (beam::linear::fitting_kernels(10)->lanes > 2) CHECK(difference(scalar, fitting) > 0.0);
 }
 
 TEST_CASE("beam kernels: schemes on linear elements take the kernels that fit", "[planar_beam]") {

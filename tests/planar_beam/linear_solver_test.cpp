@@ -14,7 +14,8 @@ using planar_beam::AssembledChain;
 
 namespace {
 
-constexpr LinearSolver assembled[] = {LinearSolver::band, LinearSolver::klu, LinearSolver::sparselu};
+constexpr LinearSolver assembled[] = {LinearSolver::band, LinearSolver::lapack, LinearSolver::klu,
+                                      LinearSolver::sparselu};
 
 /// Residual of the solution of a random system, the second one with the same pattern; `pivots`: with small
 /// diagonals, so that rows have to be exchanged.
@@ -53,7 +54,7 @@ double solution_error(LinearSolver solver, int order, int elements, bool held, b
 
 }  // namespace
 
-TEST_CASE("beam schemes: assembled systems by band matrix, KLU and SparseLU", "[planar_beam]") {
+TEST_CASE("beam schemes: assembled systems by band matrix, LAPACK, KLU and SparseLU", "[planar_beam]") {
   for (LinearSolver solver : assembled)
     for (int order : {1, 2, 4})
       for (int elements : {1, 2, 9})
@@ -96,7 +97,7 @@ TEST_CASE("beam schemes: --linear-solver changes nothing but rounding", "[planar
 
 TEST_CASE("beam schemes: every linear solver is timed at three sizes", "[planar_beam]") {
   const std::vector<PartTask> tasks = beam::linear_solver_tasks();
-  CHECK(tasks.size() == 12);
+  CHECK(tasks.size() == 15);
   for (const PartTask& task : tasks)
     if (task.size == 20) CHECK(task.run(task.index, task.size) > 0.0);
 }

@@ -143,6 +143,24 @@ TEST_CASE("stability: what does not survive", "[study][stability]") {
   CHECK(failure_of(scene, row, {}) == "");
 }
 
+TEST_CASE("vary: several keys take the same values in step", "[study][vary]") {
+  const Variation variation = read_variation("--vary", "beam.EA,beam.GA=1e5,2e5");
+  CHECK(variation.key == "beam.EA,beam.GA");
+  REQUIRE(variation.values.size() == 2);
+  const Catalogue catalogue = full_catalogue();
+  SceneChanges changes;
+  changes.vary = variation.assignment(1);
+  const Scene scene = load_scene(catalogue, "soft-beam", changes);
+  CHECK(scene.name == "soft-beam[beam.EA,beam.GA=2e5]");
+  CHECK(scene.resolved["beam"]["EA"] == 2e5);
+  CHECK(scene.resolved["beam"]["GA"] == 2e5);
+  CHECK(scene.resolved["beam"]["EI"] == 0.5);
+  for (const char* wrong : {"beam.EA,=1", ",beam.EA=1", "beam.EA,beam.GB=1"}) {
+    changes.vary = wrong;
+    CHECK_THROWS_AS(load_scene(catalogue, "soft-beam", changes), UsageError);
+  }
+}
+
 TEST_CASE("vary: values are split where no bracket or quote is open", "[study][vary]") {
   const auto values = [](const std::string& text) { return read_variation("--vary", text).values; };
   CHECK(values("a.b=1, 2,3e4") == std::vector<std::string>{"1", "2", "3e4"});

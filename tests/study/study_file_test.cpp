@@ -49,7 +49,19 @@ TEST_CASE("study file: what it says is read", "[study]") {
   CHECK(plan.vary[0].tols == std::vector<double>{1e-10});
   CHECK(plan.vary[0].full_only);
   CHECK(!plan.vary[0].stability);
+  REQUIRE(beams.work.size() == 1);
+  CHECK(beams.work[0].scene == "spin-up-short");
+  CHECK(beams.work[0].tols.front() == 1e-3);
+  CHECK(beams.work[0].timing_budget < 1e3);
+  REQUIRE(beams.vary.size() == 1);
+  CHECK(beams.vary[0].variation.key == "beam.EA,beam.GA");
+  CHECK(beams.vary[0].variation.numbers().value().back() == 1e10);
+  CHECK(beams.vary[0].time_limit == 1.0);
+  REQUIRE(beams.speed.size() >= 3);
+  CHECK(beams.speed[0].scalar);
+  CHECK(beams.speed[0].integrators.size() == 2);
   CHECK(plan.speed.size() >= 4);
+  CHECK(!plan.speed[0].scalar);
   REQUIRE(plan.survey.size() >= 4);
   CHECK(plan.survey[1].label == "space moment");
   CHECK(plan.survey[1].key() == "space_moment");
@@ -76,7 +88,13 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
         "3: speed[0].step: found -1, expected a positive number (s)");
   CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = 1\ntol = 1\n") ==
         "4: speed[0].tol: found an unknown key, expected one of scene, step, steps, parts, newton_tol, set, "
-        "instructions_key, full_only");
+        "instructions_key, scalar, integrators, full_only");
+  const std::string work = "[[work]]\nscene = \"a\"\nintegrators = []\ntols = [1e-3, 1e-5]\n";
+  CHECK(refusal(work + "steps = [0.1, 0.2]\ntime_limit = 1\ntiming_budget = 2\n") == "nothing");
+  CHECK(refusal(work + "steps = [0.1]\n") ==
+        "5: work[0].steps: found [0.1], expected positive numbers (s), at least two");
+  CHECK(refusal(work + "steps = [0.1, 0.2]\ntime_limit = 0\n") ==
+        "6: work[0].time_limit: found 0, expected a positive number (s)");
   const std::string vary = "[[vary]]\nlabel = \"a\"\nscene = \"a\"\nkey = \"b\"\n";
   CHECK(refusal(vary + "values = [1, \"none\", [2]]\nwhat = \"stability\"\n") == "nothing");
   CHECK(refusal(vary) == "1: vary[0].values: found nothing, expected values of the key, every one once");
@@ -86,6 +104,8 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
         "6: vary[0].what: found \"speed\", expected errors or stability");
   CHECK(refusal(vary + "values = [1]\nsteps = [0.1, 0]\n") ==
         "6: vary[0].steps: found [0.1, 0], expected one or more positive numbers (s)");
+  CHECK(refusal(vary + "values = [1]\ntiming_budget = -1\n") ==
+        "6: vary[0].timing_budget: found -1, expected a positive number (s)");
   CHECK(refusal("[[vary]]\nlabel = \"a/b\"\n") ==
         "2: vary[0].label: found \"a/b\", expected a name of letters, digits, - and _");
 }

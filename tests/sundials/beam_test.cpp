@@ -48,9 +48,10 @@ void check_agreement(const Scene& scene, bool with_reference) {
   const Catalogue catalogue = full_catalogue();
   const StderrCapture capture;
   std::map<std::string_view, BeamLadder> ladders;
-  for (std::string_view name : {"cvode-bdf", "cvode-adams", "ida-bdf", "ida-bdf-constraints", "arkode-dirk"})
+  for (std::string_view name :
+       {"cvode-bdf", "cvode-bdf-gmres", "cvode-adams", "ida-bdf", "ida-bdf-constraints", "arkode-dirk"})
     if (catalogue.pair(name, *scene.model)) ladders[name] = climb_beam(catalogue, name, scene);
-  CHECK(ladders.size() >= 4);
+  CHECK(ladders.size() >= 5);
   ReferenceStates reference;
   if (with_reference) {
     reference = scene.model->reference({scene.t_end});

@@ -1,4 +1,6 @@
 #pragma once
+#include <string_view>
+
 #include "src/instruction_set.hpp"
 
 namespace gnomon::beam::linear {
@@ -88,6 +90,10 @@ const Kernels* kernels(InstructionSet set);
 /// Two lanes that meet in the middle: no wider registers than every machine has, and no more arithmetic than
 /// one after the other.
 const Kernels& paired_kernels();
+/// The same two lanes without any vector instructions.
+const Kernels& scalar_kernels();
+/// By "scalar" or the name of an InstructionSet; null as in `kernels`. "baseline" are the paired ones.
+const Kernels* kernels_named(std::string_view name);
 /// The ones for a beam of that many elements on this machine; null where there are too few elements.
 const Kernels* fitting_kernels(int elements);
 

@@ -1,5 +1,7 @@
 // Compiled with options of its own, see CMakeLists.txt.
 #ifdef __AVX512F__
+#include "integrators/beam/linear/vector_lanes.hpp"
+
 #include "integrators/beam/linear/lane_step.hpp"
 #else
 #include "integrators/beam/linear/kernels.hpp"

@@ -1,3 +1,5 @@
+#include "integrators/beam/linear/vector_lanes.hpp"
+
 #include "integrators/beam/linear/lane_step.hpp"
 
 namespace gnomon::beam::linear {

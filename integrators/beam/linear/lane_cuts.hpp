@@ -9,10 +9,10 @@ namespace {
 
 template <int lanes>
 [[gnu::always_inline]] inline void add_totals(const Squares<Lanes<lanes>>& lane, Squares<double>& sum) {
-  sum.inertia += stdx::reduce(lane.inertia);
-  sum.internal += stdx::reduce(lane.internal);
-  sum.external += stdx::reduce(lane.external);
-  sum.total += stdx::reduce(lane.total);
+  sum.inertia += reduce(lane.inertia);
+  sum.internal += reduce(lane.internal);
+  sum.external += reduce(lane.external);
+  sum.total += reduce(lane.total);
 }
 /// Numbers of all lanes, to be read two lanes at a time.
 using Pair = Lanes<2>;
@@ -134,7 +134,7 @@ typename Sweep<lanes, cayley>::Found Sweep<lanes, cayley>::meet(const Front<V>& 
   }
   double most = squares.inertia > squares.internal ? squares.inertia : squares.internal;
   most = squares.external > most ? squares.external : most;
-  return {__builtin_sqrt(squares.total), __builtin_sqrt(most), stdx::hmax(largest)};
+  return {__builtin_sqrt(squares.total), __builtin_sqrt(most), hmax(largest)};
 }
 
 }  // namespace

@@ -1,18 +1,13 @@
 #pragma once
 // The equations of one linear element in each lane. Compiled once for each instruction set, see
-// lane_step.hpp.
-
-#include <experimental/simd>
+// lane_step.hpp. Lanes<n>, n numbers side by side, has to be defined before: vector_lanes.hpp or
+// scalar_lanes.hpp.
 
 #include "integrators/beam/linear/kernels.hpp"
 #include "integrators/beam/linear/lane_blocks.hpp"
 
 namespace gnomon::beam::linear {
 namespace {
-
-namespace stdx = std::experimental;
-template <int lanes>
-using Lanes = stdx::simd<double, stdx::simd_abi::deduce_t<double, lanes>>;
 
 /// cos z and sin z for |z| <= 0.8 by their series, to rounding.
 template <class V>
@@ -101,7 +96,7 @@ struct Point {
                                const V& w3, const V& omega) {
     z = step.half_h * omega;
     if constexpr (cayley) {
-      factor = 1.0 / stdx::sqrt(1.0 + z * z);
+      factor = 1.0 / sqrt(1.0 + z * z);
       turn_c = factor;
       turn_s = z * factor;
       increment = (factor * factor) * (step.h * w3);
@@ -147,7 +142,7 @@ template <class V, bool cayley>
   const V w1 = step.slope * (right.at[0] - left.at[0]), w2 = step.slope * (right.at[1] - left.at[1]),
           w3 = step.slope * (right.at[2] - left.at[2]), omega = 0.5 * (left.at[2] + right.at[2]);
   const Point<V, cayley> at(step, now, w1, w2, w3, omega);
-  largest = stdx::max(largest, at.z * at.z);
+  largest = max(largest, at.z * at.z);
   const V u1 = step.half_h * w1, u2 = step.half_h * w2;
   const V &c = at.c, &s = at.s;
   // e_{n+1/2} - e0, N_{n+1/2} = C (e_{n+1} + e_n)/2

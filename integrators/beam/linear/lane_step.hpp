@@ -42,7 +42,7 @@ inline double set_start(const Layout& layout, const Arrays& arrays, Start start)
       mean = at(arrays.past0 + i);
     mean.copy_to(arrays.mean + i, stdx::vector_aligned);
   }
-  return stdx::reduce(square);
+  return reduce(square);
 }
 
 /// u, v and the elements' history at the end of the step.

@@ -85,11 +85,11 @@ class Sweep {
       advance(front, squares, largest, full);
       const auto mask = longer_ == 0.0;
       choose(mask, shorter, front);
-      stdx::where(mask, squares.inertia) = before.inertia;
-      stdx::where(mask, squares.internal) = before.internal;
-      stdx::where(mask, squares.external) = before.external;
-      stdx::where(mask, squares.total) = before.total;
-      stdx::where(mask, largest) = largest_before;
+      where(mask, squares.inertia) = before.inertia;
+      where(mask, squares.internal) = before.internal;
+      where(mask, squares.external) = before.external;
+      where(mask, squares.total) = before.total;
+      where(mask, largest) = largest_before;
       forget(mask, full);
     }
     return meet(front, squares, largest);
@@ -237,11 +237,11 @@ class Sweep {
 
   template <class Mask>
   static void choose(const Mask& mask, const Block<V>& from, Block<V>& to) {
-    for (int k = 0; k < 9; ++k) stdx::where(mask, to.at[k / 3][k % 3]) = from.at[k / 3][k % 3];
+    for (int k = 0; k < 9; ++k) where(mask, to.at[k / 3][k % 3]) = from.at[k / 3][k % 3];
   }
   template <class Mask>
   static void choose(const Mask& mask, const Triple<V>& from, Triple<V>& to) {
-    for (int k = 0; k < 3; ++k) stdx::where(mask, to.at[k]) = from.at[k];
+    for (int k = 0; k < 3; ++k) where(mask, to.at[k]) = from.at[k];
   }
   template <class Mask>
   static void choose(const Mask& mask, const Front<V>& from, Front<V>& to) {
@@ -262,7 +262,7 @@ class Sweep {
     double* at = block(i);
     for (int k = 0; k < block_components; ++k) {
       V value = load(at + lanes * k);
-      stdx::where(mask, value) = k == 0 || k == 4 || k == 8 ? -1.0 : 0.0;
+      where(mask, value) = k == 0 || k == 4 || k == 8 ? -1.0 : 0.0;
       value.copy_to(at + lanes * k, stdx::vector_aligned);
     }
   }

@@ -18,7 +18,8 @@ class FastStepper {
   FastStepper(const M& model, const typename M::State& state, const SchemeOptions& options,
               const Kernels* kernels = nullptr)
       : general_(model, state, options) {
-    if (!kernels) kernels = fitting_kernels(model.elements());
+    const std::string_view named = model.data().instructions;
+    if (!kernels) kernels = named.empty() ? fitting_kernels(model.elements()) : kernels_named(named);
     if (!kernels || model.elements() < kernels->lanes || options.modified_newton ||
         options.linear_solver != LinearSolver::block)
       return;
