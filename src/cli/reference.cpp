@@ -91,7 +91,7 @@ int reference(Context& context) {
   const StudyOptions options = study_options(request);
   const std::vector<Scene> scenes = load_scenes(context);
   warn(scenes);
-  ReferenceStore references(reference_folder());
+  ReferenceStore references(reference_folder(), true);
   Runner runner(context.catalogue, references, context.stop);
   Document document(context.catalogue, "reference");
   std::vector<output::Table> tables;
