@@ -122,8 +122,9 @@ constexpr Command commands[] = {
      "all schemes of equal steps of a model: order, cost, invariants, largest step", &model_name,
      "xlJjcLoRMqQ", survey},
     {"reference", "SCENE.. [--t-end T] [--fresh]",
-     "the reference solution: kind, methods, bounds of its error, state at the end", &scene, "eaFjcLQ",
-     reference},
+     "the reference solution: kind, methods, bounds of its error, state at the end; a certified one is kept "
+     "beside its scene",
+     &scene, "eaFjcLQ", reference},
     {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqyJFQ",
      bench},
     {"report", "DIR", "tables, figures and one HTML page from the measurements of a study; runs nothing",
