@@ -108,9 +108,11 @@ output::Cell joint_cost_cell(const std::vector<ScoreOn>& all, std::size_t level,
 
 void add_energy_cells(std::vector<output::Cell>& cells, const std::vector<ScoreOn>& all) {
   const Score* worst = nullptr;
+  std::size_t known = 0;
   double largest = std::nan("");
   for (const ScoreOn& on : all) {
     if (badness(*on.score) < 0) continue;
+    ++known;
     if (!worst || badness(*on.score) > badness(*worst)) worst = on.score;
     if (on.score->energy && !(on.score->energy->max_abs <= largest)) largest = on.score->energy->max_abs;
   }
@@ -120,7 +122,7 @@ void add_energy_cells(std::vector<output::Cell>& cells, const std::vector<ScoreO
   }
   const auto as_bad =
       std::ranges::count_if(all, [&](const ScoreOn& on) { return badness(*on.score) == badness(*worst); });
-  cells.emplace_back(energy_text(*worst) + of_all(static_cast<std::size_t>(as_bad), all.size()));
+  cells.emplace_back(energy_text(*worst) + of_all(static_cast<std::size_t>(as_bad), known));
   cells.push_back(output::number_cell(largest, 2));
 }
 
@@ -204,7 +206,8 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
       "the loosest setting reaches it, the cost of that one; — not reached; order: — no asymptotic range",
       what));
   table.notes.push_back(
-      "energy: the worst of the scenes over a thousand time scales, a tenth of one the step, 1e-8 the "
+      "energy: the worst of the scenes that keep one, over a thousand time scales, a tenth of one the step, "
+      "1e-8 the "
       "tolerance; its drift: the largest, in the scale of the energy");
   table.notes.push_back("largest step: the least of the scenes, in time scales; " + survival_line({}));
   return table;
