@@ -10,6 +10,7 @@
 #include <fstream>
 #include <thread>
 
+#include "src/measure/core.hpp"
 #include "src/measure/timing.hpp"
 
 namespace gnomon {
@@ -76,6 +77,8 @@ nlohmann::ordered_json environment(const Catalogue& catalogue) {
   nlohmann::ordered_json json;
   json["cpu"] = cpu_name();
   json["cores"] = std::thread::hardware_concurrency();
+  const std::optional<int> core = timing_core();
+  json["timing_core"] = core ? nlohmann::ordered_json(*core) : nlohmann::ordered_json(nullptr);
   json["governor"] = governor();
   json["load"] = first_line("/proc/loadavg");
   json["compiler"] = compiler();
@@ -106,6 +109,7 @@ std::string sundials_line(const Catalogue& catalogue) {
 }
 
 std::vector<Finding> examine(const Catalogue& catalogue) {
+  const std::size_t thread_may_use = allowed_cores().size();
   std::vector<Finding> findings;
   const auto add = [&](bool good, std::string text) { findings.push_back({good, std::move(text)}); };
   add(true, fmt::format("gnomon {}, commit {}, {}", gnomon_version, git_commit(), compiler()));
@@ -126,6 +130,11 @@ std::vector<Finding> examine(const Catalogue& catalogue) {
   add(gnuplot,
       gnuplot ? "gnuplot found: figures are drawn" : "gnuplot is missing: no figures; install gnuplot-nox");
   add(true, fmt::format("CPU: {}, {} cores", cpu_name(), std::thread::hardware_concurrency()));
+  const OnOneCore pinned;
+  add(pinned.core().has_value(),
+      pinned.core()
+          ? fmt::format("timed runs stay on core {} of the {} allowed", *pinned.core(), thread_may_use)
+          : "timed runs cannot be kept on one core: they may be moved while they run");
   const std::string mode = governor();
   add(mode == "performance" || mode == "not visible",
       fmt::format(

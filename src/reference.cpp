@@ -6,15 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "src/output/files.hpp"
+#include "src/reference_file.hpp"
 
 namespace gnomon {
 namespace {
 
-// Raised whenever the way references are computed changes.
-constexpr int format_version = 7;
-
 std::string key_text(const Scene& scene, const std::vector<double>& times) {
-  std::string text = fmt::format("gnomon reference {} {}", format_version, scene.physics_hash());
+  std::string text = fmt::format("gnomon reference {} {}", reference_format, scene.physics_hash());
   for (double t : times) text += fmt::format(" {:.17g}", t);
   return text;
 }
@@ -57,6 +55,18 @@ bool read(const std::string& path, const std::string& key, ReferenceStates& refe
 
 }  // namespace
 
+std::optional<ReferenceStates> ReferenceStore::beside(const Scene& scene,
+                                                      const std::vector<double>& times) const {
+  const std::string file = beside_scenes_ ? reference_file(scene, times) : "";
+  std::error_code error;
+  if (file.empty() || !std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  try {
+    return read_reference_text(output::read_file(file), scene);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;  // it cannot be read
+  }
+}
+
 std::string ReferenceStore::path(const Scene& scene, const std::vector<double>& times) const {
   if (scene.model->has_exact() || folder_.empty()) return "";
   return fmt::format("{}/{}.json", folder_, hash_text(key_text(scene, times)));
@@ -78,7 +88,9 @@ const ReferenceStates& ReferenceStore::get(const Scene& scene, const std::vector
   };
   ReferenceStates reference;
   const std::string file = path(scene, times);
-  if (file.empty()) {
+  if (auto kept = beside(scene, times)) {
+    reference = std::move(*kept);
+  } else if (file.empty()) {
     reference = make();
   } else {
     if (!read(file, key, reference)) {

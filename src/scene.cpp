@@ -185,6 +185,9 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
   for (const ModelEntry& entry : catalogue.models) models.emplace_back(entry.name);
   scene.model_name = root.one_of("model", models);
   scene.t_end = root.positive("t_end", "a positive number (s)");
+  const bool as_it_stands =
+      changes.set.empty() && !changes.vary && changes.t_end.value_or(scene.t_end) == scene.t_end;
+  if (as_it_stands) scene.file = path;
   if (changes.t_end) scene.t_end = *changes.t_end;
 
   const auto entry = std::find_if(catalogue.models.begin(), catalogue.models.end(),

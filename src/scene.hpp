@@ -19,6 +19,7 @@ struct Scene {
   std::shared_ptr<const AnyModel> model;
   nlohmann::ordered_json resolved;  ///< name, model, t_end and the model's own keys
   std::vector<std::string> warnings;
+  std::string file{};  ///< that it is as it stands there; empty where something was changed
   /// Hash of what decides the motion: everything resolved but the name and the description.
   std::string physics_hash() const;
 };

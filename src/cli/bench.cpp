@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <sstream>
 
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
 #include "src/cli/session.hpp"
 #include "src/environment.hpp"
 #include "src/error.hpp"
+#include "src/measure/core.hpp"
 #include "src/output/files.hpp"
 #include "src/output/report_page.hpp"
 #include "src/study/compare.hpp"
@@ -31,6 +33,9 @@ namespace fs = std::filesystem;
 
 constexpr double run_limit = 300.0;  ///< s of one run
 
+/// Every core the program may use.
+int bench_jobs() { return std::max(1, static_cast<int>(allowed_cores().size())); }
+
 /// A part of the study: it writes files of its own.
 struct Part {
   std::string name;     ///< also the stem of its files
@@ -45,11 +50,15 @@ class Study {
   Study(Context& context, RunStore& store, Session session, std::string folder, bool measure)
       : context_(context),
         request_(context.request),
+        store_(store),
         session_(std::move(session)),
-        references_(reference_folder()),
+        references_(reference_folder(), true),
         runner_(context.catalogue, references_, context.stop),
-        keeper_(store,
-                {session_.code, session_.machine, measure, {0.0, default_memory_limit(), &context.stop}}),
+        keeper_(store, {session_.code,
+                        session_.machine,
+                        measure,
+                        {0.0, default_memory_limit(), &context.stop},
+                        measure ? jobs_of(context.request, bench_jobs()) : 1}),
         folder_(std::move(folder)) {
     runner_.keep_in(&keeper_);
     if (!session_.study.empty())
@@ -57,13 +66,17 @@ class Study {
     else
       for (const std::string& file : context.catalogue.study_files)
         plan(read_study(file), fs::path(file).parent_path().filename().string());
+    // What one looks at first. Its runs serve the other parts, too.
+    std::ranges::stable_partition(parts_, [](const Part& part) { return part.name.ends_with("-scorecard"); });
   }
 
   /// False if it was interrupted.
   bool make() {
     std::size_t runs = 0;
     for (const Part& part : parts_) runs += part.runs;
+    const std::optional<std::size_t> to_make = count_to_make();
     output::Progress progress(runs, output::progress_mode(request_.quiet || !keeper_.measures()), std::cerr);
+    if (to_make) progress.expect(*to_make);
     keeper_.report_to(&progress);
     std::vector<Part> made;
     for (const Part& part : parts_) {
@@ -107,6 +120,27 @@ class Study {
   }
 
  private:
+  /// How many runs of a study that goes on are not in its store, for the time left: by going through it
+  /// without measuring.
+  std::optional<std::size_t> count_to_make() {
+    // A session alone is a study that begins.
+    if (request_.quiet || !keeper_.measures() || store_.size() < 2) return std::nullopt;
+    std::ostringstream nowhere;
+    output::Progress counter(0, output::ProgressMode::silent, nowhere);
+    Keeper reader(store_, {session_.code, session_.machine, false, {}});
+    reader.report_to(&counter);
+    runner_.keep_in(&reader);
+    counting_ = true;
+    for (const Part& part : parts_) part.make(counter);
+    counting_ = false;
+    runner_.keep_in(&keeper_);
+    sections_.clear();
+    scorecards_.clear();
+    counts_ = {};
+    fastest_ = {};
+    return counter.made_so_far();
+  }
+
   /// `model` is what files of the part are called by.
   void plan(const StudyPlan& study, const std::string& model) {
     const auto scenes = [&](const std::vector<std::string>& names) {
@@ -128,6 +162,18 @@ class Study {
       return chosen;
     };
 
+    const std::vector<Scene> carded = scenes(session_.quick ? study.quick_scorecard : study.scorecard);
+    if (!carded.empty()) {
+      std::vector<StudyOptions> card_options;
+      std::size_t card_runs = 0;
+      for (const Scene& scene : carded) {
+        card_options.push_back(on(scene));
+        card_runs += scorecard_runs(context_.catalogue, scene, card_options.back());
+      }
+      parts_.push_back({model + "-scorecard", "Scorecard", card_runs, [=, this](output::Progress& progress) {
+                          return make_scorecard(model, carded, card_options, progress);
+                        }});
+    }
     const std::vector<Scene> converging = scenes(session_.quick ? study.quick_converge : study.converge);
     std::size_t runs = 0;
     std::vector<StudyOptions> chosen;
@@ -173,18 +219,6 @@ class Study {
       parts_.push_back({"vary-" + plan.label, "Over one parameter: " + plan.label,
                         vary_runs(context_.catalogue, plan, options), [=, this](output::Progress& progress) {
                           return make_vary(plan, options, progress);
-                        }});
-    }
-    if (!study.scorecard.empty() && !session_.quick) {
-      const std::vector<Scene> carded = scenes(study.scorecard);
-      std::vector<StudyOptions> card_options;
-      std::size_t card_runs = 0;
-      for (const Scene& scene : carded) {
-        card_options.push_back(on(scene));
-        card_runs += scorecard_runs(context_.catalogue, scene, card_options.back());
-      }
-      parts_.push_back({model + "-scorecard", "Scorecard", card_runs, [=, this](output::Progress& progress) {
-                          return make_scorecard(model, carded, card_options, progress);
                         }});
     }
     if (!study.survey.empty())
@@ -310,25 +344,40 @@ class Study {
 
   bool make_scorecard(const std::string& model, const std::vector<Scene>& scenes,
                       const std::vector<StudyOptions>& options, output::Progress& progress) {
+    const auto first = static_cast<std::ptrdiff_t>(sections_.size());
     Document document = new_document();
     document.json()["scorecard"] = nlohmann::ordered_json::array();
-    std::vector<output::Table> tables;
+    std::vector<Scorecard> cards;
     std::string names;
     for (std::size_t k = 0; k < scenes.size(); ++k) {
-      const Scorecard card = gnomon::scorecard(runner_, scenes[k], options[k], progress);
+      cards.push_back(gnomon::scorecard(runner_, scenes[k], options[k], progress));
+      const Scorecard& card = cards.back();
       if (card.interrupted) return false;
-      for (auto& item : scorecard_json(card)) document.json()["scorecard"].push_back(std::move(item));
-      tables.push_back(scorecard_table(card));
+      Document own = new_document();
+      own.json()["scorecard"] = scorecard_json(card);
+      for (const auto& item : own.json()["scorecard"]) document.json()["scorecard"].push_back(item);
       names += " " + scenes[k].name;
+      output::Table table = scorecard_table(card);
+      table.notes.push_back(sundials_line(context_.catalogue));
+      publish({"scorecard-" + scenes[k].name,
+               "Scorecard: " + scenes[k].name,
+               command("scorecard " + scenes[k].name, options[k]),
+               {table},
+               {},
+               {}},
+              own);
     }
-    tables.back().notes.push_back(sundials_line(context_.catalogue));
+    const output::Table joint = joint_scorecard_table("Scorecard, " + model, cards);
     publish({model + "-scorecard",
              "Scorecard: " + model,
              command("scorecard" + names, options.front()),
-             tables,
+             {joint},
              {},
              {}},
             document);
+    scorecards_.push_back(joint);
+    // It stands before the scenes that it sums up.
+    std::rotate(sections_.begin() + first, sections_.end() - 1, sections_.end());
     return true;
   }
 
@@ -382,6 +431,10 @@ class Study {
 
   /// Writes the files of a part and keeps it for the page.
   void publish(output::ReportSection section, const Document& document) {
+    if (counting_) {
+      sections_.push_back(std::move(section));
+      return;
+    }
     write_study(folder_, section.id, section.tables, document, section.figure,
                 section.command.empty() ? "" : fmt::format("`{}`\n\n", section.command));
     const std::string drawn = fmt::format("{}/{}.svg", folder_, section.id);
@@ -393,6 +446,7 @@ class Study {
     output::ReportPage page;
     page.title = session_.quick ? "gnomon: quick study" : "gnomon: study";
     for (const auto& [name, value] : session_.environment.items()) page.facts.emplace_back(name, fact(value));
+    page.summary = scorecards_;
     if (!fastest_.empty()) page.summary.push_back(fastest_.table());
     page.summary.push_back(counts_.table());
     page.sections = sections_;
@@ -438,8 +492,8 @@ class Study {
     }
     output::write_file_atomically(folder_ + "/README.md", text);
     for (const Part& part : parts_)
-      if (part.name.ends_with("-orders") || part.name.ends_with("-speed") ||
-          part.name.starts_with("peers-")) {
+      if (part.name.ends_with("-scorecard") || part.name.ends_with("-orders") ||
+          part.name.ends_with("-speed") || part.name.starts_with("peers-")) {
         const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
         say(request_, content.substr(0, content.find("**Runs**")));
       }
@@ -449,6 +503,7 @@ class Study {
 
   Context& context_;
   const Request& request_;
+  RunStore& store_;
   Session session_;
   ReferenceStore references_;
   Runner runner_;
@@ -458,6 +513,8 @@ class Study {
   std::vector<output::ReportSection> sections_;
   RunCounts counts_;
   Fastest fastest_;
+  std::vector<output::Table> scorecards_;
+  bool counting_ = false;  ///< only what has to be made is counted: nothing is written or kept
 };
 
 }  // namespace

@@ -62,6 +62,10 @@ void check_steps(const Request& request, const std::vector<Scene>& scenes) {
 
 }  // namespace
 
+int jobs_of(const Request& request, int otherwise) {
+  return request.jobs.empty() ? otherwise : static_cast<int>(whole_number("--jobs", request.jobs, 1024));
+}
+
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
   std::stringstream stream(text);

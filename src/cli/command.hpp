@@ -31,6 +31,7 @@ struct Request {
   std::string max_drift;   ///< of `stability`
   std::string load_steps;  ///< of `static`
   std::string study;       ///< of `bench`
+  std::string jobs;        ///< runs at a time
   std::string json, csv, latex, out;
   bool modified_newton = false, arc_length = false;
   bool no_reference = false, no_timing = false, quick = false, quiet = false, fresh = false;
@@ -60,6 +61,9 @@ long whole_number(const std::string& option, const std::string& text, long most)
 
 /// The parts of a list with commas; an empty text has none.
 std::vector<std::string> split(const std::string& text);
+
+/// What --jobs says, else `otherwise`.
+int jobs_of(const Request& request, int otherwise = 1);
 
 /// Refuses output files that could not be written, before anything runs.
 void check_outputs(const Request& request);

@@ -21,8 +21,8 @@ int compare(Context& context) {
   warn(scenes);
   const std::string folder = request.out.empty() ? "gnomon-out" : request.out;
 
-  ReferenceStore references(reference_folder());
-  Runner runner(context.catalogue, references, context.stop);
+  ReferenceStore references(reference_folder(), true);
+  Runner runner(context.catalogue, references, context.stop, jobs_of(request));
   std::size_t total = 0;
   for (const Scene& scene : scenes) total += compare_runs(context.catalogue, scene, options);
   output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);

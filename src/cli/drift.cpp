@@ -16,8 +16,8 @@ int drift(Context& context) {
   check_scheme_options(context, scenes, options);
   warn(scenes);
 
-  ReferenceStore references(reference_folder());
-  Runner runner(context.catalogue, references, context.stop);
+  ReferenceStore references(reference_folder(), true);
+  Runner runner(context.catalogue, references, context.stop, jobs_of(request));
   std::size_t total = 0;
   for (const Scene& scene : scenes) total += drift_runs(context.catalogue, scene, options);
   output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);

@@ -9,6 +9,8 @@
 
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
+#include "src/output/files.hpp"
+#include "src/reference_file.hpp"
 
 namespace gnomon::cli {
 namespace {
@@ -61,6 +63,21 @@ void print(const Request& request, const SceneStudy& study, const Origin& origin
       say(request, fmt::format("  {:<20} {:.17g}", probe.name + " " + component, value));
 }
 
+/// Puts the reference beside its scene; false where there is no place for it.
+bool keep(const SceneStudy& study, const std::string& file) {
+  const std::string text =
+      file.empty() || study.reference.kind.empty() ? "" : reference_text(study.scene, study.reference);
+  if (text.empty()) return false;
+  try {
+    output::write_file_atomically(file, text);
+    return true;
+  } catch (const std::runtime_error& error) {
+    std::cerr << fmt::format("gnomon: {}: the reference is not kept beside the scene: {}\n", study.scene.name,
+                             error.what());
+    return false;
+  }
+}
+
 /// Adds what other commands do not show to the reference of the last scene.
 void complete(Document& document, const SceneStudy& study, const Origin& origin) {
   nlohmann::ordered_json& json = document.json()["scenes"].back()["reference"];
@@ -91,7 +108,7 @@ int reference(Context& context) {
   const StudyOptions options = study_options(request);
   const std::vector<Scene> scenes = load_scenes(context);
   warn(scenes);
-  ReferenceStore references(reference_folder());
+  ReferenceStore references(reference_folder(), true);
   Runner runner(context.catalogue, references, context.stop);
   Document document(context.catalogue, "reference");
   std::vector<output::Table> tables;
@@ -99,14 +116,20 @@ int reference(Context& context) {
   for (const Scene& scene : scenes) {
     SceneStudy study;
     study.scene = scene;
-    Origin origin{references.path(scene, {scene.t_end}), false, 0.0};
+    const std::string beside = reference_file(scene, {scene.t_end});
+    const std::string cached = references.path(scene, {scene.t_end});
     std::error_code code;
-    if (request.fresh && !origin.file.empty()) std::filesystem::remove(origin.file, code);
-    origin.there = !origin.file.empty() && std::filesystem::exists(origin.file, code);
+    if (request.fresh)
+      for (const std::string& file : {beside, cached})
+        if (!file.empty()) std::filesystem::remove(file, code);
+    const bool stands_beside = references.beside(scene, {scene.t_end}).has_value();
+    const bool there = stands_beside || (!cached.empty() && std::filesystem::exists(cached, code));
+    Origin origin{stands_beside ? beside : cached, there, 0.0};
     const double begin = wall_seconds();
     study.reference = runner.reference(scene, options);
     origin.seconds = wall_seconds() - begin;
     if (runner.stopped()) break;
+    if (!stands_beside && keep(study, beside)) origin.file = beside;
     missing = missing || study.reference.kind.empty();
     print(request, study, origin);
     document.add(study);

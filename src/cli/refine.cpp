@@ -39,7 +39,7 @@ int refine(Context& context) {
   const StudyOptions options = study_options(request);
   if (options.scheme.spectral_radius)
     check_scheme_options(context, {load_scene(context.catalogue, plan.scene, plan.changes)}, options);
-  ReferenceStore references(reference_folder());
+  ReferenceStore references(reference_folder(), true);
   Runner runner(context.catalogue, references, context.stop);
   output::Progress progress(refine_runs(plan), output::progress_mode(request.quiet), std::cerr);
   const Refinement study = refine(runner, plan, options, progress);

@@ -117,7 +117,7 @@ int run(Context& context) {
   check_scheme_options(context, {study.scene}, options);
   warn({study.scene});
 
-  ReferenceStore references(reference_folder());
+  ReferenceStore references(reference_folder(), true);
   Runner runner(context.catalogue, references, context.stop);
   study.reference = runner.reference(study.scene, options);
   study.rows.push_back(runner.run(study.scene, study.reference, scheme, setting, options));

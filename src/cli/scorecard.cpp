@@ -21,23 +21,25 @@ int scorecard(Context& context) {
   for (const Scene& scene : scenes) total += scorecard_runs(context.catalogue, scene, options);
   warn(scenes);
 
-  ReferenceStore references(reference_folder());
-  Runner runner(context.catalogue, references, context.stop);
+  ReferenceStore references(reference_folder(), true);
+  Runner runner(context.catalogue, references, context.stop, jobs_of(request));
   output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);
   Document document(context.catalogue, "scorecard");
   document.json()["scorecard"] = nlohmann::ordered_json::array();
+  std::vector<Scorecard> cards;
   std::vector<output::Table> tables;
   bool stopped = false;
   for (const Scene& scene : scenes) {
-    const Scorecard card = gnomon::scorecard(runner, scene, options, progress);
-    stopped = card.interrupted;
-    document.add(card.comparison);
-    for (auto& item : scorecard_json(card)) document.json()["scorecard"].push_back(std::move(item));
-    tables.push_back(scorecard_table(card));
+    cards.push_back(gnomon::scorecard(runner, scene, options, progress));
+    stopped = cards.back().interrupted;
+    document.add(cards.back().comparison);
+    for (auto& item : scorecard_json(cards.back())) document.json()["scorecard"].push_back(std::move(item));
+    tables.push_back(scorecard_table(cards.back()));
     if (options.timing) tables.back().notes.push_back(sundials_line(context.catalogue));
     if (stopped) break;
   }
   progress.finish();
+  if (cards.size() > 1) tables.insert(tables.begin(), joint_scorecard_table("Scorecard", cards));
   for (const output::Table& table : tables) show(request, table);
   if (!request.out.empty())
     for (const std::string& file : write_study(request.out, "scorecard", tables, document, std::nullopt, ""))

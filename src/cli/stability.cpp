@@ -21,8 +21,8 @@ int stability(Context& context) {
   for (const Scene& scene : scenes) total += equal_step_schemes(context.catalogue, scene, options).size();
   warn(scenes);
 
-  ReferenceStore references(reference_folder());
-  Runner runner(context.catalogue, references, context.stop);
+  ReferenceStore references(reference_folder(), true);
+  Runner runner(context.catalogue, references, context.stop, jobs_of(request));
   output::Progress progress(total, output::progress_mode(request.quiet), std::cerr);
   Document document(context.catalogue, "stability");
   document.json()["stability"] = nlohmann::ordered_json::array();

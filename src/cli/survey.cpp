@@ -34,8 +34,8 @@ int survey(Context& context) {
       throw UsageError(
           fmt::format("survey: found '{}', expected a model with a survey: {}", name, choices_text(models)));
 
-  ReferenceStore references(reference_folder());
-  Runner runner(context.catalogue, references, context.stop);
+  ReferenceStore references(reference_folder(), true);
+  Runner runner(context.catalogue, references, context.stop, jobs_of(request));
   std::size_t runs = 0;
   for (const Planned& each : planned) runs += survey_runs(context.catalogue, each.plans, options.quick);
   output::Progress progress(runs, output::progress_mode(request.quiet), std::cerr);

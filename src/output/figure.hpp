@@ -8,13 +8,20 @@
 
 namespace gnomon::output {
 
+struct Range {
+  double low = 0.0;
+  double high = 1.0;
+};
+
 struct Series {
-  std::string label;         ///< shortened if longer than 36 characters
-  std::vector<double> x;     ///< drawn in the given order
-  std::vector<double> y;     ///< same length; a value that cannot be drawn breaks the line
-  std::vector<bool> hollow;  ///< points drawn hollow (failed, or at the reference's bound), with no line
-                             ///< between two of them; empty: none
-  int style = 0;             ///< see style_of: the scheme's position in the catalogue
+  std::string label;            ///< shortened if longer than 36 characters
+  std::vector<double> x;        ///< drawn in the given order
+  std::vector<double> y;        ///< same length; a value that cannot be drawn breaks the line
+  std::vector<bool> hollow;     ///< points drawn hollow (failed, or at the reference's bound), with no line
+                                ///< between two of them; empty: none
+  int style = 0;                ///< see style_of: the scheme's position in the catalogue
+  std::vector<Range> x_bars{};  ///< error bars along x, such as the least and the most of repeated times;
+                                ///< same length; empty: none
 };
 
 /// A horizontal line, such as the error bound of the reference. Left out if it is far below the data.
@@ -29,9 +36,11 @@ struct Guide {
   std::string label;
 };
 
-struct Range {
-  double low = 0.0;
-  double high = 1.0;
+/// A run that failed has no y: a cross at the top of the frame.
+struct Failure {
+  double x = 0.0;
+  int style = 0;      ///< as of Series
+  std::string label;  ///< whose it is and why; not drawn
 };
 
 struct Panel {
@@ -44,6 +53,7 @@ struct Panel {
   std::optional<Range> y_range;
   std::vector<ReferenceLine> reference_lines;
   std::vector<Guide> guides;
+  std::vector<Failure> failures;
   std::vector<Series> series;
 };
 
@@ -52,8 +62,9 @@ struct Panel {
 /// show its labels once.
 struct Figure {
   std::string title;
-  std::string caption;      ///< not drawn; the title of the SVG document, which screen readers read
-  std::string hollow_note;  ///< what hollow points mean; drawn below the axes if there are any
+  std::string caption;         ///< not drawn; the title of the SVG document, which screen readers read
+  std::string hollow_note;     ///< what hollow points mean; drawn below the axes if there are any
+  std::string failure_note{};  ///< what crosses mean; drawn below the axes if there are any
   std::vector<Panel> panels;
 };
 

@@ -22,11 +22,18 @@ bool is_drawn(const Series& series, const Panel& panel, std::size_t i) {
 
 bool is_hollow(const Series& series, std::size_t i) { return !series.hollow.empty() && series.hollow[i]; }
 
+bool has_bar(const Series& series, const Panel& panel, std::size_t i) {
+  return !series.x_bars.empty() && can_be_drawn(series.x_bars[i].low, panel.log_x) &&
+         can_be_drawn(series.x_bars[i].high, panel.log_x) && series.x_bars[i].low < series.x_bars[i].high;
+}
+
 void check_lengths(const Series& series) {
   const bool hollow_fits = series.hollow.empty() || series.hollow.size() == series.x.size();
-  if (series.x.size() == series.y.size() && hollow_fits) return;
-  throw std::invalid_argument(fmt::format("series '{}': {} values of x, {} of y, {} of hollow", series.label,
-                                          series.x.size(), series.y.size(), series.hollow.size()));
+  const bool bars_fit = series.x_bars.empty() || series.x_bars.size() == series.x.size();
+  if (series.x.size() == series.y.size() && hollow_fits && bars_fit) return;
+  throw std::invalid_argument(fmt::format("series '{}': {} values of x, {} of y, {} of hollow, {} bars",
+                                          series.label, series.x.size(), series.y.size(),
+                                          series.hollow.size(), series.x_bars.size()));
 }
 
 /// Points of a long curve that get a marker: nearest to places equally spaced along the x axis, shifted from
@@ -77,6 +84,8 @@ Curve curve_of(const Series& series, const Panel& panel) {
     drawn = marked_points(series, panel, drawn);
   }
   for (const std::size_t i : drawn) {
+    if (has_bar(series, panel, i))
+      curve.bars.push_back({{series.x[i], series.y[i]}, series.x_bars[i].low, series.x_bars[i].high});
     (is_hollow(series, i) ? curve.hollow : curve.filled).push_back({series.x[i], series.y[i]});
   }
   return curve;
@@ -89,8 +98,12 @@ std::optional<Range> drawn_range(const Panel& panel, bool of_x) {
       if (!is_drawn(series, panel, i)) continue;
       const double value = of_x ? series.x[i] : series.y[i];
       range = united(range, Range{value, value});
+      if (of_x && i < series.x_bars.size() && has_bar(series, panel, i))
+        range = united(range, series.x_bars[i]);
     }
   }
+  for (const Failure& failure : panel.failures)
+    if (of_x && can_be_drawn(failure.x, panel.log_x)) range = united(range, Range{failure.x, failure.x});
   return range;
 }
 

@@ -209,6 +209,24 @@ bool add_guides(DrawnPanel& panel, const Panel& data, Occupied& occupied) {
   return true;
 }
 
+/// Crosses at the top of the frame; those of one place stand below each other, as far as there is room.
+void add_failures(DrawnPanel& panel, const Panel& data, Occupied& occupied) {
+  constexpr double distance = 12.0;
+  std::vector<Point> taken;
+  for (const Failure& failure : data.failures) {
+    if (!can_be_drawn(failure.x, data.log_x)) continue;
+    const double position = panel.x.position(failure.x);
+    if (position < 0.0 || position > 1.0) continue;
+    Point at{panel.frame.left + position * (panel.frame.right - panel.frame.left), panel.frame.top - 10.0};
+    for (const Point& other : taken)
+      if (std::abs(other.x - at.x) < distance) at.y = std::min(at.y, other.y - distance);
+    if (at.y < 0.5 * (panel.frame.bottom + panel.frame.top)) continue;
+    taken.push_back(at);
+    panel.decoration.marks.push_back({at, 2, style_of(failure.style).colour});
+    occupied.add_box({at.x - 6.0, at.y - 6.0, at.x + 6.0, at.y + 6.0});
+  }
+}
+
 std::pair<Point, Point> ends(const DrawnPanel& panel, const Curve& curve) {
   const Point first = to_pixels(panel, curve.pieces.front().front());
   const Point last = to_pixels(panel, curve.pieces.back().back());
@@ -295,7 +313,10 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
     for (const Curve& curve : panel) frame.hollow = frame.hollow || !curve.hollow.empty();
   }
   const bool noted = frame.hollow && !figure.hollow_note.empty();
-  frame.note = noted ? 26.0 : 0.0;
+  const bool failed =
+      !figure.failure_note.empty() &&
+      std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.failures.empty(); });
+  frame.note = noted || failed ? 26.0 : 0.0;
   const double title_height = figure.title.empty() ? 0.0 : 30.0;
   const bool several = figure.panels.size() > 1;
   if (several) drawing.width = 1000.0;
@@ -326,6 +347,7 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     DrawnPanel& panel = drawing.panels[p];
     Occupied occupied = occupied_by_curves(panel, panel.frame);
+    add_failures(panel, figure.panels[p], occupied);
     if (naming == Naming::beside_frame && !name_beside_frame(panel)) return std::nullopt;
     const auto lines = add_reference_lines(panel, figure.panels[p], occupied);
     if (naming == Naming::at_ends && !name_at_ends(panel, occupied)) return std::nullopt;
@@ -340,12 +362,15 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
     drawing.decoration.texts.push_back(
         {{middle, drawing.height - 20.0}, Anchor::centre, plain_text(figure.title), title_size});
   }
-  if (noted) {
-    const double left = drawing.panels.front().frame.left;
-    drawing.decoration.marks.push_back({{left + 6.0, 15.0}, 6, grey});
+  double left = drawing.panels.front().frame.left;
+  const auto note = [&](int mark, const std::string& text) {
+    drawing.decoration.marks.push_back({{left + 6.0, 15.0}, mark, grey});
     drawing.decoration.texts.push_back(
-        {{left + 18.0, 15.0}, Anchor::left, plain_text(figure.hollow_note), text_size, grey});
-  }
+        {{left + 18.0, 15.0}, Anchor::left, plain_text(text), text_size, grey});
+    left += 18.0 + text_width(plain_text(text), text_size) + 30.0;
+  };
+  if (noted) note(6, figure.hollow_note);
+  if (failed) note(2, figure.failure_note);
   return drawing;
 }
 

@@ -37,6 +37,13 @@ struct Mark {
   std::string colour = "#000000";
 };
 
+/// An error bar along x at a point, in data coordinates.
+struct Bar {
+  Point at;
+  double low = 0.0;
+  double high = 0.0;
+};
+
 /// Points in data coordinates.
 struct Curve {
   std::string label;
@@ -45,6 +52,7 @@ struct Curve {
   std::vector<std::vector<Point>> pieces;  ///< see Series::y and Series::hollow for where it breaks
   std::vector<Point> filled;               ///< where markers stand
   std::vector<Point> hollow;
+  std::vector<Bar> bars;
 };
 
 struct Decoration {

@@ -53,6 +53,11 @@ void write_all_data(Output out, const Drawing& drawing) {
       write_data(out, data_name(p, c, "line"), curves[c].pieces);
       if (!curves[c].filled.empty()) write_data(out, data_name(p, c, "filled"), {curves[c].filled});
       if (!curves[c].hollow.empty()) write_data(out, data_name(p, c, "hollow"), {curves[c].hollow});
+      if (curves[c].bars.empty()) continue;
+      fmt::format_to(out, "${} << END_OF_DATA\n", data_name(p, c, "bars"));
+      for (const Bar& bar : curves[c].bars)
+        fmt::format_to(out, "{:.17g} {:.17g} {:.17g} {:.17g}\n", bar.at.x, bar.at.y, bar.low, bar.high);
+      fmt::format_to(out, "END_OF_DATA\n");
     }
   }
   // A panel without data is drawn as an empty frame: a plot of one undefined value.
@@ -95,8 +100,10 @@ void write_axis(Output out, const Axis& axis, char name, bool labels) {
 
 void write_plot(Output out, const DrawnPanel& panel, std::size_t p) {
   const char* separator = "plot ";
-  const auto element = [&](const std::string& data, const std::string& look, const std::string& title) {
-    fmt::format_to(out, "{}${} using 1:2 with {} title {} noenhanced", separator, data, look, quoted(title));
+  const auto element = [&](const std::string& data, const std::string& look, const std::string& title,
+                           const char* columns = "1:2") {
+    fmt::format_to(out, "{}${} using {} with {} title {} noenhanced", separator, data, columns, look,
+                   quoted(title));
     separator = ", \\\n  ";
   };
   if (panel.curves.empty()) element("nothing", "points pt 7 lc rgb '#ffffff'", "");
@@ -106,6 +113,13 @@ void write_plot(Output out, const DrawnPanel& panel, std::size_t p) {
     element(data_name(p, c, "line"),
             fmt::format("lines lw {} dt {} lc rgb '{}'", curve.line_width, style.dash, style.colour),
             curve.label);
+  }
+  for (std::size_t c = 0; c < panel.curves.size(); ++c) {
+    const Curve& curve = panel.curves[c];
+    if (curve.bars.empty()) continue;
+    element(data_name(p, c, "bars"),
+            fmt::format("xerrorbars pt 0 ps 0 lw 0.9 lc rgb '{}'", curve.style.colour), curve.label,
+            "1:2:3:4");
   }
   // Markers stand above all lines; a hollow one hides what is below it.
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
@@ -130,6 +144,7 @@ void write_panels(Output out, const Drawing& drawing, double MarkerSize::*size) 
     fmt::format_to(out, "size{} = {}\nsize{} = {}\n", marker.filled, marker.*size, marker.filled - 1,
                    marker.*size);
   }
+  fmt::format_to(out, "size2 = {}\nset errorbars 0.5\n", marker_sizes.front().*size);
   fmt::format_to(
       out, "set multiplot\nunset key\nset clip one\nset clip two\nset border 31 lw 1 lc rgb '#333333'\n");
   fmt::format_to(out, "set grid xtics ytics nomxtics nomytics back lt 1 lw 0.6 dt solid lc rgb '#dcdcdc'\n");

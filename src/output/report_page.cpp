@@ -109,17 +109,31 @@ Json series_json(const Series& series) {
   const SeriesStyle style = style_of(series.style);
   Json hollow = Json::array();
   for (const bool each : series.hollow) hollow.push_back(each);
-  return {{"label", series.label}, {"x", numbers(series.x)}, {"y", numbers(series.y)},
-          {"hollow", hollow},      {"colour", style.colour}, {"marker", style.filled_marker},
+  Json bars = Json::array();
+  for (const Range& bar : series.x_bars) bars.push_back(numbers({bar.low, bar.high}));
+  return {{"label", series.label},
+          {"x", numbers(series.x)},
+          {"y", numbers(series.y)},
+          {"hollow", hollow},
+          {"bars", bars},
+          {"colour", style.colour},
+          {"marker", style.filled_marker},
           {"dash", style.dash}};
 }
 
 Json figure_json(const Figure& figure) {
-  Json json{{"title", figure.title}, {"hollow_note", figure.hollow_note}, {"panels", Json::array()}};
+  Json json{{"title", figure.title},
+            {"hollow_note", figure.hollow_note},
+            {"failure_note", figure.failure_note},
+            {"panels", Json::array()}};
   for (const Panel& panel : figure.panels) {
-    Json each{{"title", panel.title},   {"x_label", panel.x_label}, {"y_label", panel.y_label},
-              {"log_x", panel.log_x},   {"log_y", panel.log_y},     {"lines", Json::array()},
-              {"series", Json::array()}};
+    Json each{{"title", panel.title},    {"x_label", panel.x_label}, {"y_label", panel.y_label},
+              {"log_x", panel.log_x},    {"log_y", panel.log_y},     {"lines", Json::array()},
+              {"series", Json::array()}, {"failures", Json::array()}};
+    for (const Failure& failure : panel.failures)
+      each["failures"].push_back({{"x", numbers({failure.x})[0]},
+                                  {"label", failure.label},
+                                  {"colour", style_of(failure.style).colour}});
     for (const ReferenceLine& line : panel.reference_lines)
       each["lines"].push_back({{"y", line.y}, {"label", line.label}});
     for (const Series& series : panel.series) each["series"].push_back(series_json(series));

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,9 +52,35 @@ struct Breaking {
   std::vector<Trial> trials;     ///< all runs, by step
 };
 
-/// Runs the ladder from its smallest step up, then bisects (in the logarithm) between the last one that
-/// survives and the first one that does not. Ends early when the runner is stopped.
-Breaking find_breaking(Runner& runner, const Scene& scene, const ReferenceStates& reference,
-                       const SchemeInfo& scheme, const StepSearch& search, const StudyOptions& options);
+/// The search for one scheme's largest step: the ladder from its smallest step up, then bisection (in the
+/// logarithm) between the last step that survives and the first that does not.
+class BreakingSearch {
+ public:
+  BreakingSearch(const Scene& scene, const StepSearch& search) : scene_(scene), search_(search) {}
+  /// Steps that are to be run next, whose runs do not depend on each other; none at the end. All have to be
+  /// taken before it goes on.
+  std::vector<double> next();
+  void take(double step, Row row);
+  /// As far as it has come.
+  Breaking result() &&;
+
+ private:
+  bool is_open() const;
+
+  const Scene& scene_;
+  StepSearch search_;
+  Breaking breaking_;
+  int begun_ = 0;  ///< steps of the ladder
+  std::optional<double> smaller_;
+};
+
+/// Searches for every scheme; nothing for one that an interruption ended. Schemes go on side by side where
+/// the runner makes several runs at a time, with the same results. `begin` is called before the first run of
+/// each.
+std::vector<std::optional<Breaking>> find_breakings(Runner& runner, const Scene& scene,
+                                                    const ReferenceStates& reference,
+                                                    const std::vector<const SchemeInfo*>& schemes,
+                                                    const StepSearch& search, const StudyOptions& options,
+                                                    const std::function<void(const SchemeInfo&)>& begin);
 
 }  // namespace gnomon

@@ -16,9 +16,11 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "src/output/text.hpp"
 
@@ -153,32 +155,99 @@ std::string how_it_ended(int status, int words, const ChildLimits& limits) {
   return said.empty() ? text : text + ": " + said;
 }
 
-/// Hands over what the child says to its end; something else if it has to be ended before.
-std::optional<ChildEnd> listen(int results, Pulse& pulse, const ChildLimits& limits, const Say& hear) {
-  std::string text;
-  std::uint64_t count = pulse.count();
-  double last = now();
-  std::array<char, 65536> buffer;
-  for (;;) {
-    pollfd waiting{results, POLLIN, 0};
-    const int ready = ::poll(&waiting, 1, 50);
-    if (ready > 0) {
-      const ssize_t got = ::read(results, buffer.data(), buffer.size());
-      if (got == 0 || (got < 0 && errno == ECONNRESET)) return std::nullopt;
-      if (got > 0) text.append(buffer.data(), static_cast<std::size_t>(got));
-      for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
-        hear(text.substr(0, end));
-        ::send(results, "\n", 1, MSG_NOSIGNAL);
-      }
+/// One child at its work. It does not outlive this object.
+class Child {
+ public:
+  Child(const std::function<void(Pulse&, const Say&)>& work, const ChildLimits& limits)
+      : limits_(limits), words_(::memfd_create("gnomon-child", MFD_CLOEXEC)) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("make a connection");
+    results_.reset(ends[0]);
+    Descriptor answers(ends[1]);
+    const pid_t parent = ::getpid();
+    child_ = ::fork();
+    if (child_ < 0) fail("start a child process");
+    if (child_ == 0) {
+      results_.reset();
+      live(work, limits, *pulse_, parent, answers.get(), words_.get());
     }
-    if (limits.stop && limits.stop->load(std::memory_order_relaxed)) return ChildEnd::interrupted;
-    if (pulse.count() != count || ready > 0) {
-      count = pulse.count();
-      last = now();
-    }
-    if (limits.seconds > 0.0 && now() - last > limits.seconds) return ChildEnd::time_limit;
+    count_ = pulse_->count();
+    last_ = now();
   }
-}
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  ~Child() {
+    if (child_ <= 0) return;
+    ::kill(child_, SIGKILL);
+    bury();
+  }
+
+  int results() const { return results_.get(); }
+
+  /// Takes what has arrived; false where nothing more will.
+  bool take(const Say& hear) {
+    std::array<char, 65536> buffer;
+    const ssize_t got = ::read(results_.get(), buffer.data(), buffer.size());
+    if (got == 0 || (got < 0 && errno == ECONNRESET)) return false;
+    if (got > 0) text_.append(buffer.data(), static_cast<std::size_t>(got));
+    for (std::size_t end; (end = text_.find('\n')) != std::string::npos; text_.erase(0, end + 1)) {
+      hear(text_.substr(0, end));
+      ::send(results_.get(), "\n", 1, MSG_NOSIGNAL);
+    }
+    last_ = now();
+    return true;
+  }
+
+  /// Whether it has been silent for too long.
+  bool is_silent() {
+    if (pulse_->count() != count_) {
+      count_ = pulse_->count();
+      last_ = now();
+    }
+    return limits_.seconds > 0.0 && now() - last_ > limits_.seconds;
+  }
+
+  /// Ends it, unless it has ended by itself (nothing for `how`).
+  ChildResult end(std::optional<ChildEnd> how) {
+    if (how) ::kill(child_, SIGKILL);
+    const int status = bury();
+    ChildResult result;
+    result.task = pulse_->task();
+    if (how == ChildEnd::time_limit)
+      result.text = fmt::format("did not end within {:g} s", limits_.seconds);
+    else if (how == ChildEnd::interrupted)
+      result.text = "interrupted";
+    else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+      result.text = how_it_ended(status, words_.get(), limits_);
+    else
+      return result;
+    result.end = how.value_or(ChildEnd::crashed);
+    return result;
+  }
+
+ private:
+  int bury() {
+    int status = 0;
+    while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+    }
+    child_ = -1;
+    return status;
+  }
+
+  ChildLimits limits_;
+  Descriptor words_;
+  Descriptor results_;
+  SharedPulse pulse_;
+  pid_t child_ = -1;
+  std::string text_;  ///< not yet a whole line
+  std::uint64_t count_ = 0;
+  double last_ = 0.0;  ///< sign of life
+};
+
+struct Numbered {
+  std::size_t number;
+  std::unique_ptr<Child> child;
+};
 
 }  // namespace
 
@@ -193,49 +262,47 @@ std::uint64_t default_memory_limit() {
 #endif
 }
 
+void in_children(const ChildWork& work, int jobs, const ChildLimits& limits) {
+  const auto stopped = [&] { return limits.stop && limits.stop->load(std::memory_order_relaxed); };
+  std::vector<Numbered> alive;
+  for (std::size_t next = 0;;) {
+    while (next < work.count && alive.size() < static_cast<std::size_t>(std::max(1, jobs)) && !stopped()) {
+      const std::size_t k = next++;
+      if (work.begin) work.begin(k);
+      alive.push_back(
+          {k, std::make_unique<Child>([&work, k](Pulse& pulse, const Say& say) { work.work(k, pulse, say); },
+                                      limits)});
+    }
+    if (alive.empty()) return;
+    std::vector<pollfd> waiting;
+    for (const Numbered& each : alive) waiting.push_back({each.child->results(), POLLIN, 0});
+    const bool ready = ::poll(waiting.data(), waiting.size(), 50) > 0;
+    std::vector<Numbered> still;
+    for (std::size_t i = 0; i < alive.size(); ++i) {
+      Numbered& each = alive[i];
+      const auto hear = [&](const std::string& line) { work.hear(each.number, line); };
+      std::optional<ChildEnd> how;
+      bool over = ready && waiting[i].revents != 0 && !each.child->take(hear);
+      if (!over && stopped()) how = ChildEnd::interrupted;
+      if (!over && !how && each.child->is_silent()) how = ChildEnd::time_limit;
+      if (over || how)
+        work.ended(each.number, each.child->end(how));
+      else
+        still.push_back(std::move(each));
+    }
+    alive = std::move(still);
+  }
+}
+
 ChildResult in_child(const std::function<void(Pulse&, const Say&)>& work, const ChildLimits& limits,
                      const Say& hear) {
-  int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("make a connection");
-  Descriptor results(ends[0]), answers(ends[1]);
-  const Descriptor words(::memfd_create("gnomon-child", MFD_CLOEXEC));
-  SharedPulse pulse;
-  const pid_t parent = ::getpid();
-  const pid_t child = ::fork();
-  if (child < 0) fail("start a child process");
-  if (child == 0) {
-    results.reset();
-    live(work, limits, *pulse, parent, answers.get(), words.get());
-  }
-  answers.reset();
-
-  ChildResult result;
-  const auto bury = [&] {
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
-  };
-  std::optional<ChildEnd> ended;
-  try {
-    ended = listen(results.get(), *pulse, limits, hear);
-  } catch (...) {
-    ::kill(child, SIGKILL);
-    bury();
-    throw;
-  }
-  if (ended) ::kill(child, SIGKILL);
-  const int status = bury();
-  result.task = pulse->task();
-  if (ended == ChildEnd::time_limit)
-    result.text = fmt::format("did not end within {:g} s", limits.seconds);
-  else if (ended == ChildEnd::interrupted)
-    result.text = "interrupted";
-  else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    result.text = how_it_ended(status, words.get(), limits);
-  else
-    return result;
-  result.end = ended.value_or(ChildEnd::crashed);
+  ChildResult result{ChildEnd::interrupted, "interrupted", -1};
+  in_children({1,
+               [&](std::size_t, Pulse& pulse, const Say& say) { work(pulse, say); },
+               {},
+               [&](std::size_t, const std::string& line) { hear(line); },
+               [&](std::size_t, const ChildResult& end) { result = end; }},
+              1, limits);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -46,5 +47,17 @@ struct ChildResult {
 using Say = std::function<void(const std::string& line)>;
 ChildResult in_child(const std::function<void(Pulse&, const Say&)>& work, const ChildLimits& limits,
                      const Say& hear);
+
+/// Several pieces of work, each in a child process of its own.
+struct ChildWork {
+  std::size_t count = 0;
+  std::function<void(std::size_t k, Pulse&, const Say&)> work;
+  std::function<void(std::size_t k)> begin;                          ///< before number k starts
+  std::function<void(std::size_t k, const std::string& line)> hear;  ///< what number k says
+  std::function<void(std::size_t k, const ChildResult&)> ended;
+};
+/// As in_child, at most `jobs` children at a time, which start in order and end in any. After an interruption
+/// none starts; those that have not are never heard of.
+void in_children(const ChildWork& work, int jobs, const ChildLimits& limits);
 
 }  // namespace gnomon

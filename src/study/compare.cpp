@@ -87,16 +87,15 @@ Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, out
   study.levels = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
-  for (const SchemeInfo* scheme : schemes) {
-    const std::vector<Row> rows = runner.run_all(
-        study.scene, study.reference, *scheme, work_ladder(study.scene, *scheme, options), options,
-        [&](const Setting& setting) {
-          progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
-        });
-    study.rows.insert(study.rows.end(), rows.begin(), rows.end());
-    study.interrupted = runner.stopped();
-    if (study.interrupted) return study;
-  }
+  std::vector<RunPlan> plans;
+  for (const SchemeInfo* scheme : schemes)
+    for (const Setting& setting : work_ladder(study.scene, *scheme, options))
+      plans.push_back({scheme, setting});
+  study.rows = runner.run_each(study.scene, study.reference, plans, options, [&](const RunPlan& plan) {
+    progress.begin(fmt::format("{} / {}  {}", study.scene.name, plan.scheme->name, plan.setting.text()));
+  });
+  study.interrupted = runner.stopped();
+  if (study.interrupted) return study;
   if (options.timing) {
     progress.begin(fmt::format("{} / timing {} runs, interleaved", study.scene.name, study.rows.size()));
     runner.time(study.scene, study.rows, options);

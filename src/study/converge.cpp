@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
@@ -55,15 +57,19 @@ Convergence converge(Runner& runner, Scene scene, const StudyOptions& options, o
   study.scene = std::move(scene);
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
+  std::vector<RunPlan> plans;
+  for (const SchemeInfo* scheme : schemes)
+    for (const Setting& setting : order_ladder(study.scene, *scheme, options))
+      plans.push_back({scheme, setting});
+  study.rows = runner.run_each(study.scene, study.reference, plans, options, [&](const RunPlan& plan) {
+    progress.begin(fmt::format("{} / {}  {}", study.scene.name, plan.scheme->name, plan.setting.text()));
+  });
+  study.interrupted = runner.stopped();
+  // After an interruption the scheme that was underway, and what follows it, have no order.
   for (const SchemeInfo* scheme : schemes) {
-    const std::vector<Row> rows = runner.run_all(
-        study.scene, study.reference, *scheme, order_ladder(study.scene, *scheme, options), options,
-        [&](const Setting& setting) {
-          progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
-        });
-    study.rows.insert(study.rows.end(), rows.begin(), rows.end());
-    study.interrupted = runner.stopped();
-    if (study.interrupted) break;
+    const auto is_of = [&](const auto& each) { return each.scheme == scheme; };
+    if (study.interrupted && std::ranges::count_if(study.rows, is_of) < std::ranges::count_if(plans, is_of))
+      break;
     if (scheme->stepping == Stepping::fixed)
       for (std::size_t metric = 0; metric < study.scene.model->metrics().size(); ++metric)
         study.orders.push_back(observed_order(study, *scheme, metric));

@@ -32,17 +32,17 @@ DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& given, output:
   study.scene = std::move(scene);
   const auto schemes = select(runner.catalogue(), study.scene, options);
   study.reference = runner.reference(study.scene, options);
+  std::vector<RunPlan> plans;
   for (const SchemeInfo* scheme : schemes)
-    for (const Setting& setting : drift_settings(study.scene, *scheme, options)) {
-      if (runner.stopped()) {
-        study.interrupted = true;
-        return study;
-      }
-      progress.begin(fmt::format("{} / {}  {}", study.scene.name, scheme->name, setting.text()));
-      study.rows.push_back(runner.run(study.scene, study.reference, *scheme, setting, options));
-      for (const InvariantSummary& invariant : study.rows.back().invariants)
-        study.drifts.push_back({study.rows.size() - 1, invariant, invariant.measured});
-    }
+    for (const Setting& setting : drift_settings(study.scene, *scheme, options))
+      plans.push_back({scheme, setting});
+  study.rows = runner.run_each(study.scene, study.reference, plans, options, [&](const RunPlan& plan) {
+    progress.begin(fmt::format("{} / {}  {}", study.scene.name, plan.scheme->name, plan.setting.text()));
+  });
+  study.interrupted = study.rows.size() < plans.size();
+  for (std::size_t k = 0; k < study.rows.size(); ++k)
+    for (const InvariantSummary& invariant : study.rows[k].invariants)
+      study.drifts.push_back({k, invariant, invariant.measured});
   return study;
 }
 

@@ -34,6 +34,23 @@ output::Series series(const Catalogue& catalogue, const SceneStudy& study, const
   return series;
 }
 
+constexpr const char* failure_note = "a run that failed; the table says why";
+
+/// Failed runs of one scheme; `x_of` gives their place, not finite for none.
+template <class X>
+void add_failures(output::Panel& panel, const Catalogue& catalogue, const SceneStudy& study,
+                  const SchemeInfo& scheme, X&& x_of) {
+  for (const Row& row : study.rows) {
+    if (row.scheme != &scheme || row.result.status == Status::ok || row.result.status == Status::interrupted)
+      continue;
+    const double x = x_of(row);
+    if (std::isfinite(x))
+      panel.failures.push_back(
+          {x, style_of_scheme(catalogue, scheme),
+           fmt::format("{}, {}: {}", scheme.name, row.setting.text(), to_string(row.result.status))});
+  }
+}
+
 std::vector<const SchemeInfo*> schemes_of(const SceneStudy& study) {
   std::vector<const SchemeInfo*> schemes;
   for (const Row& row : study.rows)
@@ -292,15 +309,17 @@ output::Figure convergence_figure(const Catalogue& catalogue, const Convergence&
   output::Figure figure;
   figure.title = study.scene.name;
   figure.hollow_note = "hollow: at or below the bound of the reference";
+  figure.failure_note = failure_note;
   output::Panel steps{.title = "fixed step", .x_label = "step [s]", .y_label = error_label(study)};
   output::Panel tols{.title = "adaptive", .x_label = "tolerance", .y_label = error_label(study)};
   for (const SchemeInfo* scheme : schemes_of(study)) {
+    const auto add = [&](output::Panel& panel, const auto& x_of) {
+      panel.series.push_back(series(catalogue, study, *scheme, x_of));
+      add_failures(panel, catalogue, study, *scheme, x_of);
+    };
     if (scheme->stepping == Stepping::fixed)
-      steps.series.push_back(
-          series(catalogue, study, *scheme, [](const Row& row) { return *row.result.step; }));
-    if (scheme->stepping == Stepping::adaptive)
-      tols.series.push_back(
-          series(catalogue, study, *scheme, [](const Row& row) { return *row.setting.tol; }));
+      add(steps, [](const Row& row) { return row.result.step.value_or(std::nan("")); });
+    if (scheme->stepping == Stepping::adaptive) add(tols, [](const Row& row) { return *row.setting.tol; });
   }
   std::vector<double> declared;
   for (const OrderRow& row : study.orders)
@@ -319,6 +338,7 @@ output::Figure work_precision_figure(const Catalogue& catalogue, const Compariso
   output::Figure figure;
   figure.title = study.scene.name;
   figure.hollow_note = "hollow: at or below the bound of the reference";
+  figure.failure_note = failure_note;
   output::Panel time{.title = "CPU time", .x_label = "CPU time [s]", .y_label = error_label(study)};
   output::Panel rates{
       .title = "evaluations", .x_label = "evaluations of the rates", .y_label = error_label(study)};
@@ -326,8 +346,15 @@ output::Figure work_precision_figure(const Catalogue& catalogue, const Compariso
     time.series.push_back(series(catalogue, study, *scheme, [](const Row& row) {
       return row.timing ? row.timing->median : std::nan("");
     }));
-    rates.series.push_back(series(catalogue, study, *scheme,
-                                  [](const Row& row) { return static_cast<double>(row.evaluations()); }));
+    for (const Row& row : study.rows)
+      if (row.scheme == scheme && !row.error.empty())
+        time.series.back().x_bars.push_back(row.timing ? output::Range{row.timing->min, row.timing->max}
+                                                       : output::Range{0.0, 0.0});
+    const auto evaluations = [](const Row& row) { return static_cast<double>(row.evaluations()); };
+    rates.series.push_back(series(catalogue, study, *scheme, evaluations));
+    add_failures(rates, catalogue, study, *scheme, [](const Row& row) {
+      return row.evaluations() > 0 ? static_cast<double>(row.evaluations()) : std::nan("");
+    });
   }
   add_bound(time, study);
   add_bound(rates, study);

@@ -6,19 +6,10 @@
 #include <cmath>
 
 #include "src/study/drift_study.hpp"
-#include "src/study/present.hpp"
 #include "src/study/stability.hpp"
 
 namespace gnomon {
 namespace {
-
-StudyOptions ladder_options(const StudyOptions& given) {
-  StudyOptions options = given;
-  options.quick = true;
-  options.steps.clear();
-  options.tols.clear();
-  return options;
-}
 
 void add_ladder(Scorecard& card, Score& score) {
   const Comparison& study = card.comparison;
@@ -43,26 +34,17 @@ void add_ladder(Scorecard& card, Score& score) {
   }
 }
 
-output::Cell score_order_cell(const Score& score) {
-  if (!score.order.observed) return {};
-  output::Cell cell = output::number_cell(*score.order.observed, 3);
-  if (score.declared && std::abs(*score.order.observed - *score.declared) > 0.1)
-    cell.text += fmt::format(" ({:g})", *score.declared);
-  return cell;
-}
-
 }  // namespace
 
 std::size_t scorecard_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
-  std::size_t runs = compare_runs(catalogue, scene, ladder_options(options));
+  std::size_t runs = compare_runs(catalogue, scene, options);
   for (const SchemeInfo* scheme : select(catalogue, scene, options))
     runs += scheme->stepping == Stepping::fixed ? 2 : 1;
   return runs;
 }
 
-Scorecard scorecard(Runner& runner, const Scene& scene, const StudyOptions& given,
+Scorecard scorecard(Runner& runner, const Scene& scene, const StudyOptions& options,
                     output::Progress& progress) {
-  const StudyOptions options = ladder_options(given);
   Scorecard card;
   card.levels = {1e-3, 1e-6, 1e-9};
   card.comparison = compare(runner, scene, options, progress);
@@ -89,70 +71,24 @@ Scorecard scorecard(Runner& runner, const Scene& scene, const StudyOptions& give
 
   StepSearch search = stability_search({scene});
   search.whole = false;
+  std::vector<const SchemeInfo*> fixed;
+  std::vector<Score*> scores;
   for (Score& score : card.scores) {
-    if (score.scheme->stepping != Stepping::fixed || runner.stopped()) continue;
-    progress.begin(fmt::format("{} / {}  larger and larger steps", scene.name, score.scheme->name));
-    score.breaking =
-        find_breaking(runner, scene, card.comparison.reference, *score.scheme, search, long_options);
-    score.breaking->trials.clear();
+    if (score.scheme->stepping != Stepping::fixed) continue;
+    fixed.push_back(score.scheme);
+    scores.push_back(&score);
+  }
+  auto found = find_breakings(
+      runner, scene, card.comparison.reference, fixed, search, long_options, [&](const SchemeInfo& scheme) {
+        progress.begin(fmt::format("{} / {}  larger and larger steps", scene.name, scheme.name));
+      });
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k]) continue;
+    scores[k]->breaking = std::move(*found[k]);
+    scores[k]->breaking->trials.clear();
   }
   card.interrupted = runner.stopped();
   return card;
-}
-
-output::Table scorecard_table(const Scorecard& card) {
-  using output::Align;
-  using output::Cell;
-  output::Table table;
-  const Scene& scene = card.comparison.scene;
-  const MetricInfo metric = scene.model->metrics()[0];
-  table.caption = fmt::format("Scorecard, {}", scene.name);
-  table.columns = {{"integrator", "integrator", Align::left}, {"order", "order"}};
-  for (const double level : card.levels) {
-    table.columns.push_back(
-        {fmt::format("cpu_us_at_{:.0e}", level), fmt::format("us to {:.0e} {}", level, metric.unit)});
-    table.columns.push_back({fmt::format("rhs_at_{:.0e}", level), "(rates)"});
-  }
-  table.columns.insert(table.columns.end(), {{"energy", "energy", Align::left},
-                                             {"energy_drift", "its drift"},
-                                             {"largest_step_s", "largest step [s]"},
-                                             {"how", "fails beyond", Align::left},
-                                             {"failed", "failed runs", Align::left}});
-  for (const Score& score : card.scores) {
-    std::vector<Cell> cells{std::string(score.scheme->name), score_order_cell(score)};
-    for (std::size_t k = 0; k < card.levels.size(); ++k) {
-      cells.push_back(microseconds_cell(score.seconds[k]));
-      cells.push_back(evaluations_cell(score.evaluations[k]));
-    }
-    if (score.long_run != Status::ok)
-      cells.emplace_back(std::string(to_string(score.long_run)));
-    else
-      cells.push_back(score.energy ? Cell(std::string(to_string(score.energy->verdict))) : Cell());
-    cells.push_back(score.energy ? output::number_cell(score.energy->max_abs, 2) : Cell());
-    if (!score.breaking) {
-      cells.insert(cells.end(), 2, Cell());
-    } else {
-      Cell step =
-          score.breaking->survived > 0.0 ? output::number_cell(score.breaking->survived) : Cell("none", "");
-      if (!score.breaking->breaks) step.text = "≥ " + step.text;
-      cells.push_back(step);
-      cells.push_back(score.breaking->breaks ? Cell(score.breaking->how) : Cell());
-    }
-    std::string failed = fmt::format("{} of {}", score.failed, score.runs);
-    if (score.failed > 0) failed += " (" + score.first_failure + ")";
-    cells.emplace_back(failed);
-    table.rows.push_back(std::move(cells));
-  }
-  table.notes.push_back(reference_line(card.comparison));
-  table.notes.push_back(
-      fmt::format("order and cost of the {} error at t = {:g} s, order in brackets: the declared one where "
-                  "it differs; ≤: "
-                  "already the loosest setting reaches the level; — not reached, or no asymptotic range",
-                  metric.name, scene.t_end));
-  table.notes.push_back(fmt::format("energy to t = {:g} s at a step of {:.3g} s or a tolerance of 1e-8",
-                                    card.long_t_end, 0.1 * scene.model->time_scale()));
-  table.notes.push_back("largest step: " + survival_line({}));
-  return table;
 }
 
 nlohmann::ordered_json scorecard_json(const Scorecard& card) {

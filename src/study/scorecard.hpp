@@ -34,14 +34,18 @@ struct Scorecard {
 };
 
 /// Order, cost, energy over a thousand time scales (a tenth of one the step, 1e-8 the tolerance), largest
-/// step and failures of every chosen scheme. The ladders are the quick ones.
+/// step and failures of every chosen scheme. The ladders are those of `compare`.
 Scorecard scorecard(Runner& runner, const Scene& scene, const StudyOptions& options,
                     output::Progress& progress);
 
 /// Number of parts that `scorecard` reports as progress.
 std::size_t scorecard_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options);
 
+/// One scene: what the errors cost, and the steps, in their units.
 output::Table scorecard_table(const Scorecard& card);
+/// All scenes at once, one row a scheme: costs relative to the cheapest scheme of each scene, largest steps
+/// to the scene's time scale, and the worst energy, so that scenes of any size can stand together.
+output::Table joint_scorecard_table(const std::string& heading, const std::vector<Scorecard>& cards);
 /// One entry a scheme.
 nlohmann::ordered_json scorecard_json(const Scorecard& card);
 

@@ -66,17 +66,20 @@ Stability stability(Runner& runner, const std::vector<Scene>& scenes,
       on.reference.message = "not needed: the energy tells";
     else
       on.reference = runner.reference(scene, options);
-    for (const SchemeInfo* scheme : equal_step_schemes(runner.catalogue(), scene, options)) {
-      if (runner.stopped()) break;
-      progress.begin(fmt::format("{} / {}  larger and larger steps", scene.name, scheme->name));
-      StabilityEntry entry{
-          scheme, find_breaking(runner, scene, on.reference, *scheme, study.search, options), {}};
+    const auto schemes = equal_step_schemes(runner.catalogue(), scene, options);
+    auto found = find_breakings(
+        runner, scene, on.reference, schemes, study.search, options, [&](const SchemeInfo& scheme) {
+          progress.begin(fmt::format("{} / {}  larger and larger steps", scene.name, scheme.name));
+        });
+    for (std::size_t k = 0; k < schemes.size(); ++k) {
+      if (!found[k]) break;
+      StabilityEntry entry{schemes[k], std::move(*found[k]), {}};
       for (Trial& trial : entry.breaking.trials) {
         entry.points.push_back({on.rows.size(), trial.step, trial.failure});
         on.rows.push_back(std::move(trial.row));
       }
       entry.breaking.trials.clear();
-      if (!runner.stopped()) on.entries.push_back(std::move(entry));
+      on.entries.push_back(std::move(entry));
     }
     on.interrupted = runner.stopped();
     if (on.interrupted) break;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "src/error.hpp"
+#include "src/measure/core.hpp"
 #include "src/measure/timing.hpp"
 #include "src/nearest.hpp"
 #include "src/solver_reference.hpp"
@@ -66,29 +67,33 @@ ReferenceStates Runner::reference(const Scene& scene, const StudyOptions& option
 
 Row Runner::run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
                 const Setting& setting, const StudyOptions& options) {
-  return run_all(scene, reference, scheme, {setting}, options, [](const Setting&) {}).front();
+  return run_each(scene, reference, {{&scheme, setting}}, options, [](const RunPlan&) {}).front();
 }
 
-std::vector<Row> Runner::run_all(const Scene& scene, const ReferenceStates& reference,
-                                 const SchemeInfo& scheme, const std::vector<Setting>& settings,
-                                 const StudyOptions& options,
-                                 const std::function<void(const Setting&)>& begin,
-                                 const std::function<bool(const Row&)>& enough) {
+int Runner::jobs() const { return keeper_ ? keeper_->jobs() : jobs_; }
+
+double patience(const StudyOptions& options) {
+  return options.time_limit + std::max(1.0, 0.1 * options.time_limit);
+}
+
+std::vector<Row> Runner::run_each(const Scene& scene, const ReferenceStates& reference,
+                                  const std::vector<RunPlan>& plans, const StudyOptions& options,
+                                  const std::function<void(const RunPlan&)>& begin) {
   std::vector<Row> rows;
   if (!keeper_) {
-    for (const Setting& setting : settings) {
+    if (jobs_ > 1 && plans.size() > 1) return run_in_children(scene, reference, plans, options, begin);
+    for (const RunPlan& plan : plans) {
       if (stopped() && !rows.empty()) break;
-      begin(setting);
-      rows.push_back(run_here(scene, reference, scheme, setting, options));
-      if (enough && enough(rows.back())) break;
+      begin(plan);
+      rows.push_back(run_here(scene, reference, *plan.scheme, plan.setting, options));
     }
     return rows;
   }
   std::vector<Json> identities;
-  for (const Setting& setting : settings)
+  for (const auto& [scheme, setting] : plans)
     identities.push_back({{"scene", scene.name},
                           {"physics", scene.physics_hash()},
-                          {"integrator", scheme.name},
+                          {"integrator", scheme->name},
                           {"step", setting.step ? Json(*setting.step) : Json()},
                           {"tol", setting.tol ? Json(*setting.tol) : Json()},
                           {"samples", options.samples},
@@ -98,20 +103,55 @@ std::vector<Row> Runner::run_all(const Scene& scene, const ReferenceStates& refe
                           {"options", options_json(options.scheme)},
                           {"reference", reference.kind}});
   // A run looks at its limit itself; one that never comes to do so is ended.
-  keeper_->set_seconds(options.time_limit + std::max(1.0, 0.1 * options.time_limit));
-  keeper_->get_all(
-      "run", identities, false,
+  keeper_->set_seconds(patience(options));
+  keeper_->get_each(
+      "run", identities,
       [&](std::size_t k, Pulse&) {
-        return row_json(scene, run_here(scene, reference, scheme, settings[k], options), options.watch > 256);
+        return row_json(scene, run_here(scene, reference, *plans[k].scheme, plans[k].setting, options),
+                        options.watch > 256);
       },
-      [&](std::size_t k) { begin(settings[k]); },
+      [&](std::size_t k) { begin(plans[k]); },
       [&](std::size_t k, const Keeper::Kept& kept) {
+        const auto& [scheme, setting] = plans[k];
         rows.push_back(kept.status == Status::ok
-                           ? restore_row(scene, scheme, settings[k], kept.result)
-                           : failed_row(scene, scheme, settings[k], kept.status, kept.message));
+                           ? restore_row(scene, *scheme, setting, kept.result)
+                           : failed_row(scene, *scheme, setting, kept.status, kept.message));
         rows.back().options = options.scheme;
-        return !(enough && enough(rows.back()));
       });
+  return rows;
+}
+
+std::vector<Row> Runner::run_in_children(const Scene& scene, const ReferenceStates& reference,
+                                         const std::vector<RunPlan>& plans, const StudyOptions& options,
+                                         const std::function<void(const RunPlan&)>& begin) {
+  std::vector<std::optional<Row>> done(plans.size());
+  const auto settle = [&](std::size_t k, Row row) {
+    row.options = options.scheme;
+    done[k] = std::move(row);
+  };
+  const ChildLimits limits{patience(options), default_memory_limit() / static_cast<std::uint64_t>(jobs_),
+                           &stop_};
+  in_children(
+      {plans.size(),
+       [&](std::size_t k, Pulse&, const Say& say) {
+         const Row row = run_here(scene, reference, *plans[k].scheme, plans[k].setting, options);
+         say(row_json(scene, row, options.watch > 256).dump(-1, ' ', false, Json::error_handler_t::replace));
+       },
+       [&](std::size_t k) { begin(plans[k]); },
+       [&](std::size_t k, const std::string& line) {
+         settle(k, restore_row(scene, *plans[k].scheme, plans[k].setting, Json::parse(line)));
+       },
+       [&](std::size_t k, const ChildResult& end) {
+         if (done[k]) return;
+         const Status status = end.end == ChildEnd::time_limit    ? Status::time_limit
+                               : end.end == ChildEnd::interrupted ? Status::interrupted
+                                                                  : Status::crashed;
+         settle(k, failed_row(scene, *plans[k].scheme, plans[k].setting, status, end.text));
+       }},
+      jobs_, limits);
+  std::vector<Row> rows;
+  for (std::optional<Row>& row : done)
+    if (row) rows.push_back(std::move(*row));
   return rows;
 }
 
@@ -168,7 +208,10 @@ std::vector<TimingStats> Runner::time(std::string_view kind, const Json& identit
                                       const std::vector<std::string>& names,
                                       const std::vector<TimedTask>& tasks, TimingPlan plan) {
   plan.timer_cost = timer_cost();
-  if (!keeper_) return measure_interleaved(tasks, plan, [this] { return stopped(); });
+  if (!keeper_) {
+    const OnOneCore here;
+    return measure_interleaved(tasks, plan, [this] { return stopped(); });
+  }
   keeper_->set_seconds(longest_silence);
   std::vector<TimingStats> all(tasks.size());
   // The places of the tasks that have not ended their process.
@@ -184,6 +227,7 @@ std::vector<TimingStats> Runner::time(std::string_view kind, const Json& identit
           pulse.beat(static_cast<int>(k));
           return task.run();
         }});
+      const OnOneCore here;
       Json json = Json::array();
       for (const TimingStats& stats : measure_interleaved(beating, plan, {}))
         json.push_back(timing_json(stats));

@@ -70,6 +70,12 @@ struct Row {
   long evaluations() const { return result.cost.rhs; }
 };
 
+/// One of several runs on a scene.
+struct RunPlan {
+  const SchemeInfo* scheme = nullptr;
+  Setting setting;
+};
+
 /// All runs on one scene.
 struct SceneStudy {
   Scene scene;
@@ -81,8 +87,8 @@ struct SceneStudy {
 /// Makes runs on behalf of the studies.
 class Runner {
  public:
-  Runner(const Catalogue& catalogue, ReferenceStore& references, const std::atomic<bool>& stop)
-      : catalogue_(catalogue), references_(references), stop_(stop) {}
+  Runner(const Catalogue& catalogue, ReferenceStore& references, const std::atomic<bool>& stop, int jobs = 1)
+      : catalogue_(catalogue), references_(references), stop_(stop), jobs_(jobs) {}
 
   const Catalogue& catalogue() const { return catalogue_; }
   bool stopped() const { return stop_.load(std::memory_order_relaxed); }
@@ -91,15 +97,18 @@ class Runner {
   /// Keeps every measurement from here on, made in a child process of its own; see Keeper.
   void keep_in(Keeper* keeper) { keeper_ = keeper; }
   Keeper* keeper() const { return keeper_; }
+  /// Runs made at a time.
+  int jobs() const;
   Row run(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
           const Setting& setting, const StudyOptions& options);
-  /// Runs with all the settings one after the other, up to the first that is `enough`; fewer if the user
-  /// interrupts. `begin` is called before each.
-  std::vector<Row> run_all(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
-                           const std::vector<Setting>& settings, const StudyOptions& options,
-                           const std::function<void(const Setting&)>& begin,
-                           const std::function<bool(const Row&)>& enough = {});
-  /// Times the rows that ended well, interleaved, each at least 5 times and 20 ms.
+  /// Runs that do not depend on each other, in the order of `plans`, up to the `jobs` of the constructor at a
+  /// time in child processes; the rows do not depend on how many. Fewer if the user interrupts. `begin` is
+  /// called before each.
+  std::vector<Row> run_each(const Scene& scene, const ReferenceStates& reference,
+                            const std::vector<RunPlan>& plans, const StudyOptions& options,
+                            const std::function<void(const RunPlan&)>& begin);
+  /// Times the rows that ended well, interleaved, each at least 5 times and 20 ms. Nothing else runs
+  /// meanwhile, and the process that is timed stays on one core (see timing_core).
   void time(const Scene& scene, std::vector<Row>& rows, const StudyOptions& options);
   /// Times tasks of any kind in turn. `identity` says what is timed and `names`, one a task, what each does.
   /// One that ends its process has no times.
@@ -113,11 +122,15 @@ class Runner {
  private:
   Row run_here(const Scene& scene, const ReferenceStates& reference, const SchemeInfo& scheme,
                const Setting& setting, const StudyOptions& options);
+  std::vector<Row> run_in_children(const Scene& scene, const ReferenceStates& reference,
+                                   const std::vector<RunPlan>& plans, const StudyOptions& options,
+                                   const std::function<void(const RunPlan&)>& begin);
   RunSpec spec(const Scene& scene, const Setting& setting, const StudyOptions& options) const;
 
   const Catalogue& catalogue_;
   ReferenceStore& references_;
   const std::atomic<bool>& stop_;
+  int jobs_ = 1;
   Keeper* keeper_ = nullptr;
 };
 
@@ -134,6 +147,8 @@ std::vector<Setting> settings(const SchemeInfo& scheme, const StudyOptions& opti
                               const std::vector<double>& steps, const std::vector<double>& tols);
 
 std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const Trace& trace);
+/// Wall-clock time after which a run that does not look at its own limit is ended, s.
+double patience(const StudyOptions& options);
 /// Twelve points a decade of time of the largest |drift| so far: enough to see growth.
 void thin(InvariantSummary& summary);
 

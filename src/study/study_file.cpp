@@ -81,6 +81,7 @@ StudyPlan read_study(const std::string& path) {
   plan.compare = root.texts("compare", "names of scenes");
   plan.quick_compare = root.texts("quick_compare", "names of scenes");
   plan.scorecard = root.texts("scorecard", "names of scenes");
+  plan.quick_scorecard = root.texts("quick_scorecard", "names of scenes");
   plan.integrators = root.texts("integrators", "names of integrators");
   each("drift", [&](Section& section) {
     section.only({"scene", "t_end", "quick_t_end", "step", "steps", "tol", "integrators"});

@@ -78,7 +78,7 @@ struct VaryPlan {
 /// What `bench` does with one model, read from its study.toml.
 struct StudyPlan {
   std::vector<std::string> converge, quick_converge, compare, quick_compare;
-  std::vector<std::string> scorecard;    ///< scenes
+  std::vector<std::string> scorecard, quick_scorecard;  ///< scenes
   std::vector<std::string> integrators;  ///< that converge, compare and the scorecard show; empty: all
   std::vector<DriftPlan> drift;
   std::vector<WorkPlan> work;  ///< not in a quick study

@@ -27,7 +27,7 @@ Scene load(const Catalogue& catalogue, const std::string& name, std::optional<do
 
 /// Steps from a 64th of the motion's time scale to 16 times it, by factors of 2, over 500 time scales or
 /// the long run; an invariant may be off by a hundredth of its scale.
-Breaking breaking_of(Runner& runner, const SurveyClass& of, const SchemeInfo& scheme) {
+void add_breakings(Runner& runner, SurveyClass& of, output::Progress& progress) {
   const double scale = of.scene.model->time_scale();
   const Scene scene = load(runner.catalogue(), of.plan.scene, std::min(500.0 * scale, of.plan.t_end));
   StudyOptions options;
@@ -36,9 +36,16 @@ Breaking breaking_of(Runner& runner, const SurveyClass& of, const SchemeInfo& sc
   search.first = scale / 64.0;
   search.count = 11;
   search.survival.max_drift = 0.01;
-  Breaking breaking = find_breaking(runner, scene, {}, scheme, search, options);
-  breaking.trials.clear();
-  return breaking;
+  std::vector<const SchemeInfo*> schemes;
+  for (const SurveyEntry& entry : of.entries) schemes.push_back(entry.scheme);
+  auto found = find_breakings(runner, scene, {}, schemes, search, options, [&](const SchemeInfo& scheme) {
+    progress.begin(fmt::format("{} / {}  larger and larger steps", of.plan.scene, scheme.name));
+  });
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k]) continue;
+    of.entries[k].breaking = std::move(*found[k]);
+    of.entries[k].breaking.trials.clear();
+  }
 }
 
 void add_orders(Runner& runner, SurveyClass& of, const StudyOptions& options, output::Progress& progress) {
@@ -169,10 +176,7 @@ Survey survey(Runner& runner, const std::string& model, const std::vector<Survey
     }
     add_orders(runner, of, options, progress);
     add_drift(runner, of, options, progress);
-    for (SurveyEntry& entry : of.entries) {
-      progress.begin(fmt::format("{} / {}  larger and larger steps", plan.scene, entry.scheme->name));
-      if (!runner.stopped()) entry.breaking = breaking_of(runner, of, *entry.scheme);
-    }
+    add_breakings(runner, of, progress);
     if (runner.stopped()) break;
     study.classes.push_back(std::move(of));
   }

@@ -111,6 +111,45 @@ TEST_CASE("bench: a study of one's own is measured once, and reported from the s
   CHECK_FALSE(says(study.file("runs.jsonl"), store));
 }
 
+TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][store]") {
+  const StudyFolder study(
+      "quick_scorecard = [\"asymmetric-free-top\", \"space-moment\"]\n"
+      "quick_converge = [\"space-moment\"]\nintegrators = [\"munjiza\", \"rkmk4\"]\n");
+  const Outcome first = study.bench({"--jobs", "2"});
+  INFO(first.err);
+  REQUIRE(first.exit_code == 0);
+  Words files{"report.html", "README.md"};
+  for (const char* stem : {"mine-scorecard", "scorecard-asymmetric-free-top", "scorecard-space-moment"})
+    for (const char* ending : {".md", ".csv", ".tex", ".json"}) files.push_back(std::string(stem) + ending);
+  std::map<std::string, std::string> before;
+  for (const std::string& name : files) before[name] = study.file(name);
+  CHECK(says(before["mine-scorecard.md"], "| munjiza "));
+  const Json json = Json::parse(before["mine-scorecard.json"]);
+  CHECK(json["scorecard"].size() == 4);
+  // On the page and in the index before anything else.
+  const std::string& page = before["report.html"];
+  CHECK(page.find("<h3>Scorecard, mine</h3>") < page.find("<h3>How the runs ended</h3>"));
+  CHECK(says(page, "<table class=\"sortable\">"));
+  CHECK(before["README.md"].find("## Scorecard") < before["README.md"].find("## Order of convergence"));
+
+  for (const std::string& name : files) fs::remove(study.out / name);
+  const std::string store = study.file("runs.jsonl");
+  const Outcome report = run_program({"report", "out"}, study.folder.path());
+  INFO(report.err);
+  CHECK(report.exit_code == 0);
+  CHECK(report.err.empty());
+  CHECK(study.file("runs.jsonl") == store);
+  for (const std::string& name : files) {
+    INFO(name);
+    CHECK(study.file(name) == before[name]);
+  }
+  // Nothing is measured twice, whatever the number of runs at a time.
+  const Words keys = study.keys();
+  const Outcome again = study.bench({"--jobs", "1"});
+  CHECK(again.exit_code == 0);
+  CHECK(study.keys() == keys);
+}
+
 TEST_CASE("bench: a study killed again and again is finished by the next calls", "[cli][store]") {
   const StudyFolder whole, killed;
   REQUIRE(whole.bench().exit_code == 0);

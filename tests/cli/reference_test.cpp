@@ -57,3 +57,47 @@ TEST_CASE("cli: reference prints its state and its bounds", "[cli]") {
   CHECK(outcome.out.find("state at the end\n  orientation ") != std::string::npos);
   CHECK(content_of(folder.path() / "bounds.csv").starts_with("metric,unit,bound,decimals\norientation,rad,"));
 }
+
+TEST_CASE("cli: a reference beside its scene is made anew when the scene changes", "[cli]") {
+  const TemporaryFolder folder;
+  const auto scene = [](const char* moment) {
+    return "name = \"mine\"\nmodel = \"rigid_body\"\nt_end = 1.0\n[body]\ninertia = [0.6, 0.8, 1.0]\n"
+           "angular_momentum = [1.8, 0.4, -0.9]\n[load]\nkind = \"space_moment\"\nmoment = [0.1, 0.2, " +
+           std::string(moment) + "]\n";
+  };
+  const fs::path file = folder.path() / "mine.reference.txt";
+  const auto say = [&](const Words& more = {}) {
+    Words words{"reference", "mine.toml"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run_program(words, folder.path());
+    INFO(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    return outcome.out;
+  };
+  write_text(folder.path() / "mine.toml", scene("0.3123"));
+  CHECK(say({"--fresh"}).find("file: mine.reference.txt (computed in ") != std::string::npos);
+  const std::string first = content_of(file);
+  CHECK(say().find("file: mine.reference.txt (read)") != std::string::npos);
+  CHECK(content_of(file) == first);
+  const auto error = [&] {
+    const Json json = Json::parse(run_program({"run", "mine.toml", "--integrator", "rkmk4", "--step", "0.01",
+                                               "--no-timing", "--json", "-"},
+                                              folder.path())
+                                      .out);
+    return json["runs"][0]["error"]["momentum"].get<double>();
+  };
+  CHECK(error() < 1e-8);
+  write_text(folder.path() / "mine.toml", scene("0.4123"));
+  CHECK(error() < 1e-8);  // the old one is not taken
+  CHECK(content_of(file) == first);
+  CHECK(say().find("file: mine.reference.txt") != std::string::npos);
+  const std::string second = content_of(file);
+  CHECK(second != first);
+  CHECK(second.find("\nstate ") != std::string::npos);
+  write_text(file, "nonsense\n");
+  CHECK(say().find("file: mine.reference.txt") != std::string::npos);
+  CHECK(content_of(file) == second);
+  // Not of a changed scene.
+  CHECK(say({"--t-end", "0.5"}).find("mine.reference.txt") == std::string::npos);
+  CHECK(content_of(file) == second);
+}

@@ -207,3 +207,46 @@ TEST_CASE("output: labels cannot break out of the script") {
   CHECK(script.find("\nexit") == std::string::npos);
   CHECK(script.find("'''; system(''false''); '' exit 3'") != std::string::npos);
 }
+
+TEST_CASE("output: failed runs are crosses at the top, error bars span what they are given") {
+  Figure figure = convergence();
+  figure.failure_note = "a run that failed";
+  const Drawing without = lay_out(figure);
+  CHECK(times_named(all_texts(without), "a run that failed") == 0);
+  Panel& panel = figure.panels.front();
+  const double x = panel.series[0].x[1];
+  panel.failures = {{x, 1, "a"}, {x, 2, "b"}, {panel.series[0].x[2], 3, "c"}, {-1.0, 4, "no place"}};
+  Series& series = panel.series[0];
+  for (const double at : series.x) series.x_bars.push_back({0.9 * at, 1.2 * at});
+  series.x_bars[1] = {0.0, 0.0};
+  const Drawing drawing = lay_out(figure);
+  check_texts(drawing);
+  CHECK(times_named(all_texts(drawing), "a run that failed") == 1);
+  const DrawnPanel& drawn = drawing.panels.front();
+  std::vector<Mark> crosses;
+  for (const Mark& mark : drawn.decoration.marks)
+    if (mark.type == 2) crosses.push_back(mark);
+  REQUIRE(crosses.size() == 3);
+  CHECK(crosses[0].colour == style_of(1).colour);
+  CHECK(crosses[0].at.x == crosses[1].at.x);
+  CHECK(crosses[0].at.y - crosses[1].at.y >= 10.0);
+  CHECK(crosses[2].at.y == crosses[0].at.y);
+  for (const Mark& cross : crosses) {
+    CHECK(cross.at.y < drawn.frame.top);
+    CHECK(cross.at.y > drawn.frame.top - 40.0);
+  }
+  const double position = drawn.frame.left + drawn.x.position(x) * (drawn.frame.right - drawn.frame.left);
+  CHECK(std::abs(crosses[0].at.x - position) <= 1e-9);
+  REQUIRE(drawn.curves[0].bars.size() == drawn.curves[0].filled.size() + drawn.curves[0].hollow.size() - 1);
+  for (const Bar& bar : drawn.curves[0].bars) {
+    CHECK(bar.low == 0.9 * bar.at.x);
+    CHECK(bar.high == 1.2 * bar.at.x);
+  }
+  CHECK(drawn.curves[1].bars.empty());
+  const std::string script = gnuplot_script(drawing, "a.svg", "a.png", "a.pdf");
+  CHECK(script.find("with xerrorbars") != std::string::npos);
+  CHECK(gnuplot_script(without, "a.svg", "a.png", "a.pdf").find("with xerrorbars") == std::string::npos);
+  // As many bars as values, or none.
+  series.x_bars.pop_back();
+  CHECK_THROWS_AS(lay_out(figure), std::invalid_argument);
+}

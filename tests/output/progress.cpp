@@ -26,11 +26,11 @@ TEST_CASE("output: a live line counts, names the run and estimates the time left
   std::ostringstream out;
   Progress progress(128, ProgressMode::live, out, 80, [&] { return now; });
   progress.begin("free-top / munjiza  step 0.01");
-  CHECK(out.str() == "\r\033[K[  1/128] free-top / munjiza  step 0.01");
+  CHECK(out.str() == "\r\033[K[  1/128 ..........] free-top / munjiza  step 0.01");
   out.str("");
   now = 1.0;
   progress.begin("free-top / rkmk4");
-  CHECK(out.str() == "\r\033[K[  2/128] free-top / rkmk4  2 min 07 s left");
+  CHECK(out.str() == "\r\033[K[  2/128 ..........] free-top / rkmk4  2 min 07 s left");
   out.str("");
   now = 200.0;
   progress.finish();
@@ -73,11 +73,11 @@ TEST_CASE("output: runs known already count but say nothing about the time left"
   Progress progress(10, ProgressMode::live, out, 80, [&] { return now; });
   progress.skip(6);
   progress.begin("first");
-  CHECK(contains(out.str(), "[ 7/10] first"));
+  CHECK(contains(out.str(), "[ 7/10 ######....] first"));
   CHECK_FALSE(contains(out.str(), "left"));
   now = 3.0;
   progress.begin("second");
-  CHECK(contains(out.str(), "[ 8/10] second  9 s left"));
+  CHECK(contains(out.str(), "[ 8/10 #######...] second  9 s left"));
   progress.finish();
   CHECK(contains(out.str(), "[ 8/10] done in 3 s, 6 known already\n"));
 }
@@ -102,4 +102,63 @@ TEST_CASE("output: a live line left by an exception is cleared, plain lines stay
   std::ostringstream lines;
   { Progress(2, ProgressMode::lines, lines).begin("a\nb"); }
   CHECK(lines.str() == "[1/2] a b\n");
+}
+
+TEST_CASE("output: the time left of a resumed study counts only what has still to be made") {
+  double now = 0.0;
+  std::ostringstream out;
+  Progress progress(1000, ProgressMode::live, out, 80, [&] { return now; });
+  progress.expect(20);
+  const auto shown = [&] {
+    const std::string text = out.str();
+    out.str("");
+    return text.substr(text.rfind("\r\033[K") + 4);
+  };
+  // Nothing is known of what runs take, until the first known one has told.
+  progress.begin("known");
+  CHECK_FALSE(contains(shown(), "left"));
+  for (int k = 0; k < 490; ++k) {
+    progress.known(3.0);
+    now += 0.001;
+    progress.begin("next");
+  }
+  // 3 s each for the 20 to be made, whatever the other 490 that follow are.
+  CHECK(shown() == "[ 491/1000 ####......] next  1 min 00 s left");
+  // The first that is made takes five minutes: with eight known ones that is 36 s on average.
+  progress.made();
+  now += 300.0;
+  progress.begin("next");
+  CHECK(shown() == "[ 492/1000 ####......] next  11 min 24 s left");
+  for (int k = 0; k < 18; ++k) {
+    progress.made();
+    now += 3.0;
+    progress.begin("next");
+  }
+  CHECK(shown() == "[ 510/1000 #####.....] next  14 s left");
+  // One of which a part was known and a part was made counts as made.
+  progress.known(3.0);
+  progress.made();
+  now += 3.0;
+  progress.begin("last");
+  CHECK(progress.made_so_far() == 21);
+  progress.known(3.0);
+  CHECK(progress.made_so_far() == 20);
+  now += 0.5;
+  progress.finish();
+  CHECK(contains(shown(), "done in 5 min 58 s, 491 known already\n"));
+}
+
+TEST_CASE("output: without an expectation a resumed study counts all that is left") {
+  double now = 0.0;
+  std::ostringstream out;
+  Progress progress(10, ProgressMode::lines, out, 0, [&] { return now; });
+  for (int k = 0; k < 5; ++k) {
+    progress.begin("a");
+    progress.known();
+  }
+  now = 20.0;
+  progress.begin("b");
+  now = 40.0;
+  progress.begin("c");
+  CHECK(contains(out.str(), "[ 7/10] c  1 min 20 s left\n"));
 }

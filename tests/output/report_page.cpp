@@ -33,6 +33,9 @@ ReportPage sample_page() {
   panel.series.push_back({"one </script>", {1e-5, 1e-4, 1e-3}, {1e-2, 1e-6, 1e-15}, {false, false, true}, 0});
   panel.series.push_back(
       {"two", {1e-5, 1e-4, 1e-3}, {1e-1, std::numeric_limits<double>::quiet_NaN(), 0.0}, {}, 1});
+  panel.series.back().x_bars = {{0.9e-5, 1.2e-5}, {0.9e-4, 1.2e-4}, {0.0, 0.0}};
+  panel.failures.push_back({1e-2, 1, "two, step 1: diverged <"});
+  figure.failure_note = "a run that failed";
   panel.reference_lines.push_back({1e-15, "bound of the reference"});
   figure.panels = {panel, panel};
   ReportPage page;
@@ -148,7 +151,7 @@ TEST_CASE("output: in a browser tables sort and plots have their data", "[browse
                  "\"seen\":[\"item9 item10 zeta alpha\",\"zeta item10 item9 alpha\","
                  "\"item9 alpha zeta item10\",\"item10 zeta alpha item9\","
                  "\"alpha item9 item10 zeta\",\"zeta item10 item9 alpha\"]"));
-  CHECK(contains(dom, "\"points\":[\"3,1,2\",\"3,1,2\"]"));
+  CHECK(contains(dom, "\"points\":[\"3,1,2,1\",\"3,1,2,1\"]"));
   CHECK(contains(dom, "\"zoomed\":true,\"back\":true"));
   CHECK(contains(dom, "\"failures\":[]"));
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "src/reference_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/output/temporary_folder.hpp"
 #include "tests/support/scenes.hpp"
@@ -51,7 +52,8 @@ void write(const fs::path& path, const std::string& text) {
 
 TEST_CASE("reference: certified solutions agree with the closed form", "[reference]") {
   const Catalogue catalogue = full_catalogue();
-  for (const char* name : {"asymmetric-free-top", "symmetric-free-top", "dzhanibekov"}) {
+  for (const char* name :
+       {"asymmetric-free-top", "symmetric-free-top", "dzhanibekov", "free-123", "needle", "plate"}) {
     const Scene scene = load_scene(catalogue, name);
     const auto& body = typed<FreeBody>(scene);
     std::vector<double> times;
@@ -226,4 +228,73 @@ TEST_CASE("reference: closed forms and stores without a folder keep no files", "
   // A folder that cannot be written costs time, nothing else.
   ReferenceStore unwritable("/proc/no-such-folder");
   CHECK(unwritable.get(load_scene(catalogue, "space-moment"), {5.0}).kind == "certified");
+}
+
+TEST_CASE("reference: beside a scene it is a text that comes back bit for bit, or not at all",
+          "[reference]") {
+  const Catalogue catalogue = full_catalogue();
+  const TemporaryFolder folder;
+  const fs::path toml = folder.path() / "mine.toml", file = folder.path() / "mine.reference.txt";
+  const std::string body =
+      "model = \"rigid_body\"\nt_end = 1.5\n[body]\ninertia = [0.6, 0.8, 1.0]\nangular_momentum = [1.8, 0.4, "
+      "-0.9]\n[load]\nkind = \"space_moment\"\nmoment = [0.1, 0.2, ";
+  write(toml, "name = \"mine\"\n" + body + "0.3]\n");
+  const Scene scene = load_scene(catalogue, toml.string());
+  REQUIRE(reference_file(scene, {1.5}) == file.string());
+  const ReferenceStates made = ReferenceStore("").get(scene, {1.5});
+  REQUIRE(made.kind == "certified");
+  const std::string text = reference_text(scene, made);
+  CHECK(text.find("\nmethod " + made.methods[0] + "\n") != std::string::npos);
+  CHECK(text.find("\nhash " + scene.physics_hash() + "\n") != std::string::npos);
+  const auto read = read_reference_text(text, scene);
+  REQUIRE(read);
+  CHECK(same(*read, made));
+
+  // It is used where it fits, and only by those who look beside scenes.
+  auto marked = made;
+  marked.methods.push_back("read from beside the scene");
+  write(file, reference_text(scene, marked));
+  CHECK(same(ReferenceStore("", true).get(scene, {1.5}), marked));
+  CHECK(same(ReferenceStore("").get(scene, {1.5}), made));
+  // Not for another end, another moment, or a scene that the command line changes.
+  CHECK(reference_file(scene, {1.0}).empty());
+  CHECK(reference_file(scene, {0.75, 1.5}).empty());
+  for (const SceneChanges& changes :
+       {SceneChanges{1.25, {}}, SceneChanges{{}, {"load.moment=[0.1, 0.2, 0.4]"}},
+        SceneChanges{{}, {}, "load.moment=[0.1, 0.2, 0.4]"}})
+    CHECK(reference_file(load_scene(catalogue, toml.string(), changes), {1.25}).empty());
+  CHECK(reference_file(load_scene(catalogue, toml.string(), {1.5, {}}), {1.5}) == file.string());
+  write(toml, "name = \"mine\"\n" + body + "0.30000000001]\n");
+  const Scene other = load_scene(catalogue, toml.string());
+  CHECK_FALSE(ReferenceStore("", true).beside(other, {1.5}));
+  CHECK(ReferenceStore("", true).get(other, {1.5}).methods == made.methods);
+  // A name says nothing of the motion.
+  write(toml, "name = \"yours\"\n" + body + "0.3]\n");
+  CHECK(ReferenceStore("", true).beside(load_scene(catalogue, toml.string()), {1.5}));
+  // A closed form needs none.
+  CHECK(reference_file(load_scene(catalogue, "asymmetric-free-top"), {10.0}).empty());
+
+  // Any damage is seen.
+  CHECK_FALSE(read_reference_text("", scene));
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    std::string damaged = text;
+    damaged[k] = damaged[k] == '7' ? '8' : '7';
+    if (read_reference_text(damaged, scene)) FAIL_CHECK("a changed character " << k << " is not seen");
+    if (read_reference_text(text.substr(0, k), scene)) FAIL_CHECK("a cut at " << k << " is not seen");
+  }
+}
+
+TEST_CASE("reference: what stands beside the shipped scenes belongs to them", "[reference]") {
+  const Catalogue catalogue = full_catalogue();
+  int kept = 0;
+  for (const ShippedScene& shipped : shipped_scenes(catalogue)) {
+    const Scene scene = load_scene(catalogue, shipped.name);
+    const std::string file = reference_file(scene, {scene.t_end});
+    if (file.empty() || !fs::exists(file)) continue;
+    INFO(file << ": made for another scene or by another version; ./gnomon reference " << shipped.name);
+    const auto reference = ReferenceStore("", true).beside(scene, {scene.t_end});
+    CHECK(reference);
+    ++kept;
+  }
+  CHECK(kept >= 10);
 }

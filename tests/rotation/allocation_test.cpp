@@ -117,6 +117,44 @@ TEST_CASE("schemes: steps of equal size allocate nothing", "[rotation][allocatio
   CHECK(allocations_of_steps<Allocating>(typed<RigidBody<SpaceMoment>>(scene)) >= 1000);
 }
 
+TEST_CASE("schemes: a run of a million steps keeps no more than one of ten thousand",
+          "[rotation][allocation]") {
+  const Scene scene = load_scene(full_catalogue(), "asymmetric-free-top");
+  const auto& body = typed<RigidBody<Free>>(scene);
+  struct Seen {
+    long allocations;
+    std::size_t kept;
+  };
+  const auto run_of = [](const auto& model, auto list, long steps) {
+    return [&]<class S>(TypeList<S>) {
+      RunSpec spec;
+      spec.step = 0.01;
+      spec.t_end = 0.01 * static_cast<double>(steps);
+      spec.watch = 2048;
+      RunResult result;
+      const long count = allocations_of([&] { result = run<std::decay_t<decltype(model)>, S>(model, spec); });
+      CHECK(result.status == Status::ok);
+      CHECK(result.t == spec.t_end);
+      return Seen{count, result.invariants.t.size() + result.invariants.values.size() +
+                             result.sample_times.size() + result.state.size()};
+    }(list);
+  };
+  const Seen few = run_of(body, TypeList<rotation::Munjiza>{}, 10'000),
+             many = run_of(body, TypeList<rotation::Munjiza>{}, 1'000'000);
+  INFO(few.allocations << " and " << many.allocations << " allocations");
+  // Where steps are few, some watched times fall on the same step.
+  CHECK(many.kept <= few.kept + few.kept / 50);
+  CHECK(many.kept >= few.kept);
+  // Looking at the state every few milliseconds costs some, whatever the speed of the machine.
+  CHECK(many.allocations <= few.allocations + 20'000);
+  // A scheme that allocates in every step is seen.
+  const Scene pushed = load_scene(full_catalogue(), "space-moment");
+  const auto& driven = typed<RigidBody<SpaceMoment>>(pushed);
+  const Seen less = run_of(driven, TypeList<Allocating>{}, 10'000),
+             more = run_of(driven, TypeList<Allocating>{}, 40'000);
+  CHECK(more.allocations >= less.allocations + 30'000);
+}
+
 TEST_CASE("rigid body: rates, Jacobians and invariants allocate nothing", "[rigid_body][allocation]") {
   const Catalogue catalogue = full_catalogue();
   for (const ShippedScene& shipped : shipped_scenes(catalogue)) {

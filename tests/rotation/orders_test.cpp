@@ -54,6 +54,9 @@ struct FirstCommutatorMissing : BookStep<BookCoefficients{.first_commutator = 0.
 struct WeightOff : BookStep<BookCoefficients{.weight3 = 2.002}> {
   static constexpr SchemeInfo info = planted("weight-off", fourth);
 };
+struct WeightOffByAMillionth : BookStep<BookCoefficients{.weight3 = 2.000002}> {
+  static constexpr SchemeInfo info = planted("weight-off-by-a-millionth", fourth);
+};
 struct WeightsShifted : BookStep<BookCoefficients{.weight2 = 2.002, .weight3 = 1.998}> {
   static constexpr SchemeInfo info = planted("weights-shifted", fourth);
 };
@@ -76,7 +79,7 @@ struct BetterThanDeclared : BookStep<BookCoefficients{.first_commutator = 0.0, .
   static constexpr SchemeInfo info = planted("better-than-declared", rotation::Munjiza::info.orders);
 };
 using FourthOrderDefects = TypeList<SignsReversed, LastCommutatorOff, FirstCommutatorMissing, WeightOff,
-                                    WeightsShifted, MomentWeightsShifted>;
+                                    WeightOffByAMillionth, WeightsShifted, MomentWeightsShifted>;
 using HalfImpulseDefects = TypeList<FullImpulse, PreviousStage, BetterThanDeclared>;
 
 const char* const scene_of_class[] = {"asymmetric-free-top", "space-moment", "body-moment",

@@ -62,7 +62,7 @@ function dashOf(dash) {
 function datasetOf(series, logX, logY) {
   const [pointStyle, rotation] = markers[series.marker] || ["circle", 0];
   const usable = (value, log) => value !== null && (!log || value > 0);
-  const points = series.x.map((x, k) => ({ x, y: series.y[k], hollow: series.hollow[k] === true }))
+  const points = series.x.map((x, k) => ({ x, y: series.y[k], hollow: series.hollow[k] === true, bar: series.bars[k] }))
     .filter((point) => usable(point.x, logX) && usable(point.y, logY));
   return {
     label: series.label, data: points, borderColor: series.colour, borderWidth: 1.6, borderDash: dashOf(series.dash),
@@ -121,7 +121,32 @@ function zoom(chart, from, to) {
   chart.update("none");
 }
 
-function makePlot(holder, panel, note) {
+// The least and the most of repeated times, as lines with ends.
+const errorBars = {
+  id: "errorBars",
+  beforeDatasetsDraw(chart) {
+    const { ctx, chartArea: area, scales: { x, y } } = chart;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(area.left, area.top, area.width, area.height);
+    ctx.clip();
+    chart.data.datasets.forEach((each, k) => {
+      if (!chart.isDatasetVisible(k)) return;
+      ctx.strokeStyle = each.borderColor;
+      for (const point of each.data) {
+        if (!point.bar || point.bar[0] === null || !(point.bar[0] > 0) || !(point.bar[0] < point.bar[1])) continue;
+        const [from, to] = point.bar.map((value) => x.getPixelForValue(value)), at = y.getPixelForValue(point.y);
+        ctx.beginPath();
+        ctx.moveTo(from, at), ctx.lineTo(to, at);
+        for (const end of [from, to]) ctx.moveTo(end, at - 3), ctx.lineTo(end, at + 3);
+        ctx.stroke();
+      }
+    });
+    ctx.restore();
+  },
+};
+
+function makePlot(holder, panel, note, failureNote) {
   const box = document.createElement("div");
   box.className = "plot";
   const canvas = document.createElement("canvas");
@@ -140,9 +165,17 @@ function makePlot(holder, panel, note) {
       borderColor: "#777777", borderDash: [2, 3], borderWidth: 1.2, pointRadius: 0, pointHitRadius: 0, pointStyle: "line",
     });
   }
+  // Runs that failed have no error: crosses at the top.
+  const failures = panel.failures.filter((each) => each.x !== null && (!panel.log_x || each.x > 0));
+  if (failures.length > 0 && ys.length > 0)
+    datasets.push({
+      label: failureNote, data: failures.map((each) => ({ x: each.x, y: Math.max(...ys), what: each.label })), showLine: false,
+      borderColor: "#777777", pointStyle: "crossRot", pointRadius: 5, pointHoverRadius: 7, pointBorderWidth: 1.6,
+      pointBorderColor: failures.map((each) => each.colour),
+    });
   const title = [panel.title, datasets.some((each) => each.data.some((point) => point.hollow)) ? note : ""];
   return new Chart(canvas, {
-    type: "line", data: { datasets }, plugins: [dragZoom],
+    type: "line", data: { datasets }, plugins: [dragZoom, errorBars],
     options: {
       animation: false, maintainAspectRatio: false, parsing: false, normalized: false, events:
         ["mousemove", "mouseout", "click", "mousedown", "mouseup", "dblclick", "touchstart", "touchmove"],
@@ -153,7 +186,7 @@ function makePlot(holder, panel, note) {
         legend: { position: "bottom", labels: { usePointStyle: true, boxWidth: 8, boxHeight: 8, font: { size: 11 }, color: "#1a1a1a" } },
         tooltip: {
           callbacks: {
-            label: (item) => `${item.dataset.label}: ${Number(item.raw.x.toPrecision(4))}, ${Number(item.raw.y.toPrecision(3))}` +
+            label: (item) => item.raw.what ? item.raw.what : `${item.dataset.label}: ${Number(item.raw.x.toPrecision(4))}, ${Number(item.raw.y.toPrecision(3))}` +
               (item.raw.hollow ? " (at the bound)" : ""),
           },
         },
@@ -170,7 +203,7 @@ function makeFigure(figure) {
   figure.classList.add("live");
   if (figure.querySelector("img.drawn")) figure.classList.add("has-drawn");
   const content = JSON.parse(data.textContent);
-  for (const panel of content.panels) gnomonPlots.push(makePlot(figure.querySelector(".plots"), panel, content.hollow_note));
+  for (const panel of content.panels) gnomonPlots.push(makePlot(figure.querySelector(".plots"), panel, content.hollow_note, content.failure_note));
 }
 
 document.querySelectorAll("table.sortable").forEach(makeSortable);
