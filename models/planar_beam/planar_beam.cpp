@@ -203,7 +203,7 @@ std::vector<Probe> PlanarBeam<p>::probes(const State& state) const {
   for (std::size_t k = 0; k < data_.hinges.size(); ++k) {
     const int left = numbering_.left_rotation(static_cast<int>(k)),
               right = numbering_.right_rotation(static_cast<int>(k));
-    probes.push_back({"hinge " + std::to_string(k + 1),
+    probes.push_back({"hinge" + std::to_string(k + 1),
                       {{"x", state.u[left - 2]},
                        {"z", state.u[left - 1]},
                        {"phi", state.u[left]},

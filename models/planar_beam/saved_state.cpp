@@ -62,7 +62,8 @@ void read_saved_state(Section& initial, const Json& beam, Data& data) {
     if (!list.is_array() || list.size() != count)
       refuse(list.is_array() ? fmt::format("{} numbers in state.{}", list.size(), key)
                              : fmt::format("which has no list state.{}", key),
-             fmt::format("{} numbers (ux, uz, phi of every node)", count));
+             fmt::format("{} numbers (ux, uz, phi of every node{})", count,
+                         data.hinges.empty() ? "" : ", of a hinge's on both sides"));
     std::vector<double> numbers;
     for (const Json& value : list) {
       if (!value.is_number() || !std::isfinite(value.get<double>()))

@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "integrators/beam/hinge_moment.hpp"
@@ -99,7 +100,7 @@ Data hinged_frame(int elements) {
 /// A free beam of three pieces in flight; the last hinge has a spring.
 Data free_chain(int elements) {
   Data data = spinning_beam(elements, true);
-  data.hinges = {{2.5}, {7.5, 20.0}};
+  data.hinges = {{2.5}, {7.5, 5.0}};
   return data;
 }
 
@@ -169,7 +170,7 @@ std::array<double, 4> rigid_double_pendulum(double m, double I, double g, double
   return y;
 }
 
-/// Two beams on a pin and a hinge; rates of rotation are taken at the middles of the beams.
+/// Two beams, from a pin and from the first one's end.
 Data double_pendulum(double EI) {
   Data data;
   data.length = 2.0;
@@ -253,7 +254,7 @@ TEST_CASE("beam schemes: tangent with hinges against finite differences", "[plan
             correction_error<BeamEnergyMomentum, 4>(seed, solver),
             correction_error<BeamStanderStein, 2>(seed, solver),
             correction_error<BeamMixedMidpoint, 2>(seed, solver)})
-        CHECK(error <= 1e-7);
+        CHECK(error <= 1e-6);
 }
 
 TEST_CASE("beam schemes: a free chain keeps energy and momenta as declared", "[planar_beam]") {
@@ -324,13 +325,17 @@ TEST_CASE("planar beam: SUNDIALS integrates a hinged frame to the same motion in
   spec.t_end = 1.0;
   spec.tol = 1e-10;
   const auto exact = last_state("arkode-erk8", model, spec);
-  for (const char* scheme : {"cvode-adams", "cvode-bdf", "arkode-dirk", "ida-bdf", "ida-bdf-constraints",
-                             "beam-energy-momentum-adaptive"}) {
-    spec.tol = std::string_view(scheme) == "beam-energy-momentum-adaptive" ? 1e-8 : 1e-9;
-    const auto state = last_state(scheme, model, spec);
-    const auto d = model.distance(state, exact);
+  CHECK(exact.v.norm() >= 1.0);
+  for (const auto& [scheme, tolerance, error] : {std::tuple{"cvode-adams", 1e-9, 3e-6},
+                                                 {"cvode-bdf", 1e-9, 3e-6},
+                                                 {"arkode-dirk", 1e-9, 3e-6},
+                                                 {"ida-bdf", 1e-9, 3e-6},
+                                                 {"ida-bdf-constraints", 1e-9, 3e-6},
+                                                 {"beam-energy-momentum-adaptive", 1e-8, 6e-5}}) {
+    spec.tol = tolerance;
+    const auto d = model.distance(last_state(scheme, model, spec), exact);
     INFO(scheme << ": " << d[0] << " " << d[1] << " " << d[2] << " " << d[3]);
-    for (double one : d) CHECK(one <= 3e-5);
+    for (double one : d) CHECK(one <= error);
   }
 }
 
@@ -343,7 +348,7 @@ TEST_CASE("planar beam: a stiff double pendulum is that of rigid rods", "[planar
   RunSpec spec;
   spec.t_end = t_end;
   spec.step = 5e-4;
-  for (const auto& [EI, tolerance] : {std::pair{1e3, 1e-2}, {1e5, 1e-4}}) {
+  for (const auto& [EI, tolerance] : {std::pair{1e3, 3e-3}, {1e5, 3e-5}}) {
     const PlanarBeam<2> model(double_pendulum(EI));
     const auto state = last_state("beam-energy-momentum", model, spec);
     // The chords of the two beams.
@@ -355,7 +360,7 @@ TEST_CASE("planar beam: a stiff double pendulum is that of rigid rods", "[planar
       const double error = std::abs(std::remainder(angle[k] - exact[k], 2.0 * std::numbers::pi));
       INFO("EI " << EI << ", beam " << k << ": " << error);
       CHECK(error <= tolerance);
-      CHECK(error >= 1e-3 * tolerance);
+      CHECK(error >= 0.1 * tolerance);  // they do bend
     }
   }
 }
@@ -382,11 +387,11 @@ TEST_CASE("planar beam: a stiff four-bar mechanism moves as its linkage", "[plan
       const auto place = [&](int i, int k) { return model.positions()[2 * (i / 3) + k] + state.u[i + k]; };
       INFO(scheme << ", t = " << t << ": " << place(b, 0) - bx << " " << place(b, 1) - bz << " "
                   << place(c, 0) - cx << " " << place(c, 1) - cz);
-      CHECK(std::hypot(place(b, 0) - bx, place(b, 1) - bz) <= 2e-5);
-      CHECK(std::hypot(place(c, 0) - cx, place(c, 1) - cz) <= 2e-5);
+      CHECK(std::hypot(place(b, 0) - bx, place(b, 1) - bz) <= 1e-6);
+      CHECK(std::hypot(place(c, 0) - cx, place(c, 1) - cz) <= 1e-6);
       // The coupler turns as the line between its ends.
       const double coupler = model.data().angle + model.data().bends[0].angle - std::atan2(cz - bz, cx - bx);
-      CHECK(std::abs(std::remainder(state.u[b + 2] - coupler, 2.0 * std::numbers::pi)) <= 2e-3);
+      CHECK(std::abs(std::remainder(state.u[b + 2] - coupler, 2.0 * std::numbers::pi)) <= 1e-5);
     }
   }
   CHECK(most - least >= 0.5);

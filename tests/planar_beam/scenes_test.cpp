@@ -24,10 +24,26 @@ TEST_CASE("planar beam: every shipped scene runs with both midpoint schemes", "[
       CHECK(result.status == Status::ok);
     }
   }
-  for (const char* name :
-       {"flying-beam", "flying-spaghetti", "free-flight", "spaghetti-free-flight", "cantilever-two-big-steps",
-        "robot-arm", "slender-pendulum", "curved-cantilever", "curved-free", "axial-wave", "spinning-rod",
-        "soft-beam", "spin-up", "released-cantilever", "elastica", "roll-up", "shallow-arch", "lee-frame"})
+  for (const char* name : {"flying-beam",
+                           "flying-spaghetti",
+                           "free-flight",
+                           "spaghetti-free-flight",
+                           "cantilever-two-big-steps",
+                           "robot-arm",
+                           "slender-pendulum",
+                           "curved-cantilever",
+                           "curved-free",
+                           "axial-wave",
+                           "spinning-rod",
+                           "soft-beam",
+                           "spin-up",
+                           "released-cantilever",
+                           "elastica",
+                           "roll-up",
+                           "shallow-arch",
+                           "lee-frame",
+                           "double-pendulum",
+                           "four-bar-mechanism"})
     CHECK(std::count(names.begin(), names.end(), name) == 1);
 }
 
