@@ -11,8 +11,9 @@
 namespace gnomon::beam {
 
 /// A beam by its nodal values u and v, of whatever order its elements are: M (u'' + damping u') + f(u, t) =
-/// F(t) for the free unknowns; f are the internal forces less those of loads that follow the beam. The
-/// schemes on it are compiled once. All vectors have `unknowns()` entries.
+/// F(t) for the free unknowns. Forces on what a hinge ties to others count there. f are the internal forces
+/// less those of loads that follow the beam. The schemes on it are compiled once. All vectors have
+/// `unknowns()` entries.
 class NodalBeam {
  public:
   virtual ~NodalBeam() = default;
@@ -34,6 +35,8 @@ class NodalBeam {
   virtual void momentum(const double* v, double* product) const = 0;                ///< M v
   /// M_ff^-1 times the forces on the free unknowns; 0 for those that are held.
   virtual void accelerate(double* force) const = 0;
+  /// Sets displacements, or their rates, that a hinge ties to others to those.
+  virtual void spread(double* values) const = 0;
   /// Row sums of M.
   virtual std::vector<double> lumped_mass() const = 0;
 
@@ -42,7 +45,7 @@ class NodalBeam {
   /// Solves in place with what was factorised; 0 for unknowns that are held.
   virtual void solve(double* values) const = 0;
 
-  /// Without the loads that follow.
+  /// Without the loads that follow. The sum over the elements bounds the stiffness of the beam from above.
   virtual Eigen::MatrixXd element_stiffness(const double* u, int element) const = 0;
   virtual Eigen::MatrixXd element_mass() const = 0;
 };
@@ -51,7 +54,8 @@ template <BeamForm M>
 class NodalBeamOf final : public NodalBeam {
  public:
   /// The model has to outlive it.
-  explicit NodalBeamOf(const M& model) : model_(&model), chain_(model.elements(), model.held()) {}
+  explicit NodalBeamOf(const M& model)
+      : model_(&model), chain_(model.elements(), model.held(), model.numbering().hinged()) {}
   std::unique_ptr<NodalBeam> clone() const override { return std::make_unique<NodalBeamOf>(*this); }
 
   int unknowns() const override { return model_->unknowns(); }
@@ -77,16 +81,20 @@ class NodalBeamOf final : public NodalBeam {
   }
   void momentum(const double* v, double* product) const override { model_->momentum(v, product); }
   void accelerate(double* force) const override { model_->accelerate(force); }
+  void spread(double* values) const override { model_->numbering().spread(values); }
   std::vector<double> lumped_mass() const override {
     std::vector<double> mass(static_cast<std::size_t>(unknowns()), 0.0);
     for (int e = 0; e < elements(); ++e)
       for (int a = 0; a <= p; ++a)
         for (int k = 0; k < 3; ++k)
-          mass[3 * (e * p + a) + k] += model_->element().load[a] * model_->density(k);
+          mass[model_->numbering().first(e) + 3 * a + k] += model_->element().load[a] * model_->density(k);
+    for (int i : model_->numbering().tied()) mass[i] = mass[i + 3] += mass[i];
     return mass;
   }
 
   void factorise(double mass, double stiffness, double t, const double* u) override {
+    model_->for_hinge_springs(
+        [&](int k, double spring) { chain_.set_spring(k, -stiffness * spring, stiffness * spring); });
     for (int e = 0; e < elements(); ++e) {
       Matrix matrix = stiffness * model_->element_tangent(t, u, e);
       add_mass(mass, matrix);
@@ -97,7 +105,14 @@ class NodalBeamOf final : public NodalBeam {
   void solve(double* values) const override { chain_.solve(values); }
 
   Eigen::MatrixXd element_stiffness(const double* u, int element) const override {
-    return model_->element_tangent(u, element);
+    Matrix matrix = model_->element_tangent(u, element);
+    // k (a - b)^2 <= 2 k a^2 + 2 k b^2: the spring of a hinge as one on each side
+    model_->for_hinge_springs([&](int k, double spring) {
+      const int right_of = model_->numbering().hinged()[k];
+      if (element == right_of) matrix(2, 2) += 2.0 * spring;
+      if (element == right_of - 1) matrix(3 * p + 2, 3 * p + 2) += 2.0 * spring;
+    });
+    return matrix;
   }
   Eigen::MatrixXd element_mass() const override {
     Matrix matrix = Matrix::Zero();

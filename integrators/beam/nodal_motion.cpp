@@ -92,6 +92,7 @@ void NodalMotion::accelerate_by(double t, Vector& force) {
     a += force;
   } else {
     for (int i = 0; i < force.size(); ++i) a[i] += force[i] / lumped[i];
+    beam->spread(a.data());
     for (int i : beam->held()) a[i] = trial_[i];
   }
 }

@@ -32,6 +32,7 @@ concept BeamForm = requires(const M& model, double t, double* out) {
   model.external_force(t, out);
   model.following(t, 0, t);
   model.spring(0);
+  model.numbering();
   model.damping();
 };
 
@@ -57,7 +58,7 @@ class Stepper {
         v(state.v),
         mean(state.v),
         history(model.point_count()),
-        chain_(model.elements(), model.held()),
+        chain_(model.elements(), model.held(), model.numbering().hinged()),
         points_(model.point_count()),
         tolerance_(options.newton_tol),
         kept_while_(options.modified_newton ? 0.2 : 1e-2) {
@@ -73,7 +74,8 @@ class Stepper {
             at.c * at.g1 + at.s * at.g2, at.c * at.g2 - at.s * at.g1, at.c, at.s, at.g1, at.g2, at.bending};
       }
     if (options.linear_solver != LinearSolver::block)
-      assembled_.emplace(options.linear_solver, p, model.elements(), model.held());
+      assembled_.emplace(options.linear_solver, p, model.elements(), model.held(),
+                         model.numbering().hinged());
     for (int i : model.held())
       if (const planar_beam::Motion* motion = model.prescribed(i)) driven_.push_back({i, *motion});
     length_ = model.data().length;
@@ -188,6 +190,10 @@ class Stepper {
       moment_slope = factor * rate + slope * phi;
     }
   };
+  /// The moments of the springs at hinges: adds them to the internal forces, or their derivatives to the
+  /// tangent.
+  void add_hinges(const M& model, double h);
+  void linearise_hinges(const M& model, double h);
   /// Adds the springs' moments at the ends to the internal forces and takes the followers' forces off them.
   void add_ends(const M& model, double h);
 

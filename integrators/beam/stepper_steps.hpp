@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrators/beam/hinge_moment.hpp"
 #include "integrators/beam/stepper.hpp"
 
 namespace gnomon::beam {
@@ -43,14 +44,16 @@ template <BeamForm M, Turning turning>
 double Stepper<M, turning>::evaluate(const M& model, double h) {
   const auto& element = model.element();
   const planar_beam::CrossSection section = model.section();
+  const planar_beam::Numbering& numbering = model.numbering();
   const double rate = 2.0 / h;
   internal_.setZero();
   inertia_.setZero();
   for (int e = 0; e < model.elements(); ++e) {
-    const double* vbar = mean.data() + 3 * p * e;
-    const double* before = v.data() + 3 * p * e;
-    double* force = internal_.data() + 3 * p * e;
-    double* inertia = inertia_.data() + 3 * p * e;
+    const int first = numbering.first(e);
+    const double* vbar = mean.data() + first;
+    const double* before = v.data() + first;
+    double* force = internal_.data() + first;
+    double* inertia = inertia_.data() + first;
     for (int g = 0; g < p; ++g) {
       double w1 = 0, w2 = 0, w3 = 0, omega = 0;
       for (int a = 0; a <= p; ++a) {
@@ -71,6 +74,9 @@ double Stepper<M, turning>::evaluate(const M& model, double h) {
         inertia[3 * a + 2] += m * section.rhoI * (vbar[3 * b + 2] - before[3 * b + 2]);
       }
   }
+  add_hinges(model, h);
+  numbering.join(internal_.data());
+  numbering.join(inertia_.data());
   if (model.has_springs() || model.has_followers()) add_ends(model, h);
   if (model.damping() != 0.0) {
     model.momentum(mean.data(), residual_.data());
@@ -83,6 +89,7 @@ double Stepper<M, turning>::evaluate(const M& model, double h) {
 
 template <BeamForm M, Turning turning>
 void Stepper<M, turning>::linearise(const M& model, double h) {
+  linearise_hinges(model, h);
   for (int e = 0; e < model.elements(); ++e) {
     if (assembled_)
       assembled_->add(e, element_tangent(model, e, h).data());
@@ -149,6 +156,31 @@ void Stepper<M, turning>::finish(double h) {
   past[0] = mean;
   known = h == past_step ? std::min(known + 1, 3) : 1;
   past_step = h;
+}
+
+template <BeamForm M, Turning turning>
+void Stepper<M, turning>::add_hinges(const M& model, double h) {
+  model.for_hinge_springs([&](int k, double stiffness) {
+    const int left = model.numbering().left_rotation(k), right = model.numbering().right_rotation(k);
+    const double moment =
+        hinge_moment(turning == Turning::cayley, stiffness, u[right] - u[left], mean[left], mean[right], h)
+            .moment;
+    internal_[left] -= moment;
+    internal_[right] += moment;
+  });
+}
+
+template <BeamForm M, Turning turning>
+void Stepper<M, turning>::linearise_hinges(const M& model, double h) {
+  model.for_hinge_springs([&](int k, double stiffness) {
+    const int left = model.numbering().left_rotation(k), right = model.numbering().right_rotation(k);
+    const HingeMoment m =
+        hinge_moment(turning == Turning::cayley, stiffness, u[right] - u[left], mean[left], mean[right], h);
+    if (assembled_)
+      assembled_->set_spring(k, m.by_left, m.by_right);
+    else
+      chain_.set_spring(k, m.by_left, m.by_right);
+  });
 }
 
 template <BeamForm M, Turning turning>

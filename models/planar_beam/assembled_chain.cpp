@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "models/planar_beam/sparse.hpp"
+
 extern "C" {
 // LAPACK by its Fortran names; SuiteSparse needs it too.
 void dgbtrf_(const int* rows, const int* columns, const int* lower, const int* upper, double* band,
@@ -166,38 +168,58 @@ class SparseLu final : public Factorisation {
 
 }  // namespace
 
-AssembledChain::AssembledChain(LinearSolver solver, int order, int elements, std::vector<int> held)
-    : kind_(solver), order_(order), elements_(elements), held_(std::move(held)) {
-  const int size = 3 * (order * elements + 1), width = 3 * (order + 1);
-  const auto is_held = [&](int i) { return std::find(held_.begin(), held_.end(), i) != held_.end(); };
-  // Columns that belong to one element couple with its rows, those of a shared node with both elements'.
-  column_start_.push_back(0);
-  for (int j = 0; j < size; ++j) {
-    const int node = j / 3, first = std::max(0, (node - 1) / order),
-              last = std::min(node / order, elements - 1);
-    for (int i = 3 * order * first; i < 3 * order * last + width; ++i)
-      if (i == j || !(is_held(i) || is_held(j))) row_.push_back(i);
-    column_start_.push_back(static_cast<long>(row_.size()));
+AssembledChain::AssembledChain(LinearSolver solver, int order, int elements, std::vector<int> held,
+                               std::vector<int> hinged)
+    : kind_(solver),
+      order_(order),
+      numbering_(order, elements, std::move(hinged)),
+      held_(std::move(held)),
+      springs_(numbering_.hinged().size()) {
+  const int size = numbering_.unknowns(), width = 3 * (order + 1);
+  // The equation of each unknown: none where it is held, that of what it is tied to where it is tied.
+  std::vector<int> equation(static_cast<std::size_t>(size));
+  for (int i = 0; i < size; ++i) equation[i] = i;
+  for (int i : numbering_.tied()) equation[i] = i + 3;
+  for (int i : held_) equation[i] = -1;
+  const auto for_entries = [&](auto&& body) {
+    for (int e = 0; e < elements; ++e)
+      for (int j = 0; j < width; ++j)
+        for (int i = 0; i < width; ++i)
+          body(equation[numbering_.first(e) + i], equation[numbering_.first(e) + j]);
+  };
+  SparseLayout layout(size);
+  for (int i = 0; i < size; ++i) layout.add(i, i);
+  for_entries([&](int row, int column) {
+    if (row >= 0 && column >= 0) layout.add(row, column);
+  });
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    const int sides[2] = {numbering_.left_rotation(static_cast<int>(k)),
+                          numbering_.right_rotation(static_cast<int>(k))};
+    for (int row : sides)
+      for (int column : sides) layout.add(row, column);
   }
-  for (int e = 0; e < elements; ++e)
-    for (int j = 0; j < width; ++j)
-      for (int i = 0; i < width; ++i) {
-        const int to_row = 3 * order * e + i, to_column = 3 * order * e + j;
-        if (is_held(to_row) || is_held(to_column)) {
-          slot_.push_back(-1);
-          continue;
-        }
-        const auto begin = row_.begin() + column_start_[to_column];
-        slot_.push_back(static_cast<int>(std::find(begin, row_.end(), to_row) - row_.begin()));
-      }
+  layout.finish();
+  for_entries([&](int row, int column) {
+    slot_.push_back(row >= 0 && column >= 0 ? static_cast<int>(layout.slot(row, column)) : -1);
+  });
+  for (std::size_t k = 0; k < springs_.size(); ++k) {
+    const int sides[2] = {numbering_.left_rotation(static_cast<int>(k)),
+                          numbering_.right_rotation(static_cast<int>(k))};
+    for (int row = 0; row < 2; ++row)
+      for (int column = 0; column < 2; ++column)
+        springs_[k].slot[row][column] = layout.slot(sides[row], sides[column]);
+  }
+  column_start_ = layout.pattern().column_start;
+  row_ = layout.pattern().row;
   values_.resize(row_.size());
   make_solver();
 }
 AssembledChain::AssembledChain(const AssembledChain& other)
     : kind_(other.kind_),
       order_(other.order_),
-      elements_(other.elements_),
+      numbering_(other.numbering_),
       held_(other.held_),
+      springs_(other.springs_),
       column_start_(other.column_start_),
       row_(other.row_),
       slot_(other.slot_),
@@ -226,10 +248,20 @@ void AssembledChain::make_solver() {
   }
 }
 
+void AssembledChain::set_spring(int k, double by_left, double by_right) {
+  springs_[k].slope = {by_left, by_right};
+}
+
 void AssembledChain::add(int e, const double* matrix) {
   if (e == 0) {
     std::fill(values_.begin(), values_.end(), 0.0);
     for (int i : held_) values_[column_start_[i]] = 1.0;
+    for (int i : numbering_.tied()) values_[column_start_[i]] = 1.0;
+    for (const Spring& spring : springs_)
+      for (int side = 0; side < 2; ++side) {
+        values_[spring.slot[0][side]] -= spring.slope[side];
+        values_[spring.slot[1][side]] += spring.slope[side];
+      }
   }
   const int count = 9 * (order_ + 1) * (order_ + 1);
   const int* slot = slot_.data() + static_cast<std::ptrdiff_t>(e) * count;
@@ -238,11 +270,13 @@ void AssembledChain::add(int e, const double* matrix) {
 }
 void AssembledChain::factorise() { regular_ = solver_->factorise(values_); }
 void AssembledChain::solve(double* values) const {
+  numbering_.join(values);
   for (int i : held_) values[i] = 0.0;
   if (regular_)
     solver_->solve(values);
   else
     std::fill(values, values + column_start_.size() - 1, std::numeric_limits<double>::quiet_NaN());
+  numbering_.spread(values);
 }
 
 }  // namespace gnomon::planar_beam

@@ -1,7 +1,9 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <vector>
 
+#include "models/planar_beam/numbering.hpp"
 #include "src/scheme.hpp"
 
 namespace gnomon::planar_beam {
@@ -19,12 +21,15 @@ class Factorisation {
 /// nodes are not condensed.
 class AssembledChain {
  public:
-  AssembledChain(LinearSolver solver, int order, int elements, std::vector<int> held);
+  AssembledChain(LinearSolver solver, int order, int elements, std::vector<int> held,
+                 std::vector<int> hinged = {});
   AssembledChain(const AssembledChain& other);
   AssembledChain& operator=(const AssembledChain& other);
   AssembledChain(AssembledChain&&) = default;
   AssembledChain& operator=(AssembledChain&&) = default;
 
+  /// As in ElementChain.
+  void set_spring(int k, double by_left, double by_right);
   /// Adds the matrix of element e, column by column.
   void add(int e, const double* matrix);
   /// Ends what `add` has assembled; the next `add` begins anew.
@@ -36,8 +41,16 @@ class AssembledChain {
   void make_solver();
 
   LinearSolver kind_;
-  int order_, elements_;
+  int order_;
+  Numbering numbering_;
   std::vector<int> held_;
+  /// Of each hinge the derivatives of its moment by the rotations on the left and on the right, and the slots
+  /// of those in the equations of both.
+  struct Spring {
+    std::array<double, 2> slope{};
+    std::array<std::array<long, 2>, 2> slot;
+  };
+  std::vector<Spring> springs_;
   std::vector<long> column_start_, row_;
   std::vector<int> slot_;  ///< of the elements' entries, -1 where an unknown is held
   std::vector<double> values_;

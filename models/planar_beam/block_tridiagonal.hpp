@@ -52,8 +52,13 @@ class BlockTridiagonal {
   }
   /// Solves in place; block i begins at values[stride * i].
   void solve(double* values, int stride) const {
+    solve_at(values, [stride](int i) { return stride * i; });
+  }
+  /// The same with block i beginning at values[first(i)].
+  template <class First>
+  void solve_at(double* values, First&& first) const {
     using Vector = Eigen::Vector3d;
-    const auto at = [&](int i) { return Eigen::Map<Vector>(values + stride * i); };
+    const auto at = [&](int i) { return Eigen::Map<Vector>(values + first(i)); };
     const int last = size() - 1;
     Vector x = at(0), y = at(last);
     for (int i = 1; i < middle_; ++i) {

@@ -25,6 +25,7 @@ class DaeForm : private MassForm<Beam> {
     this->damp(y);
     accelerations_.setZero(beam.unknowns());
     for (int i = 0; i < n; ++i) accelerations_[beam.free()[i]] = rate[n + i];
+    beam.numbering().spread(accelerations_.data());
     beam.momentum(accelerations_.data(), inertia_.data());
     this->velocities(t, y, value);
     for (int i = 0; i < n; ++i) {

@@ -100,6 +100,13 @@ struct Bend {
   double angle;  ///< rad
 };
 
+/// A joint at which both sides have one place and a rotation each. A spring acts against what the rotation on
+/// the right exceeds that on the left.
+struct Hinge {
+  double at;            ///< arc length, m; where two elements meet
+  double spring = 0.0;  ///< N m/rad
+};
+
 /// Where the initial tangent comes from: from the nodes between which the element interpolates, or exactly
 /// from the angle at each integration point.
 enum class Geometry { interpolated, exact };
@@ -115,6 +122,7 @@ struct Data {
   double gravity = 0.0;                   ///< along -z, m/s^2
   double damping = 0.0;                   ///< 1/s, proportional to mass: the force -damping M v
   std::vector<Bend> bends;                ///< ascending
+  std::vector<Hinge> hinges{};            ///< ascending
   Geometry geometry = Geometry::interpolated;
   std::array<double, 2> velocity{0.0, 0.0};  ///< of the centre of mass, m/s
   double angular_velocity = 0.0;             ///< about +y, rad/s
@@ -127,7 +135,8 @@ struct Data {
   double horizon = 1.0;  ///< s, the time the scene runs to; sets the scale of what a constant load moves
 };
 
-/// Nodal displacements and rotations u = (ux, uz, phi) one node after the other, their rates v, and the
+/// Nodal displacements and rotations u = (ux, uz, phi) one node after the other, a hinge's node once for each
+/// of its sides, their rates v, and the
 /// strains (epsilon, gamma, kappa) one integration point after the other. The strains follow from u, except
 /// in a scheme that keeps them as a history of its own (see the README); the energy is that of the strains.
 struct State {

@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "models/planar_beam/data.hpp"
+#include "models/planar_beam/numbering.hpp"
 
 namespace gnomon::planar_beam {
 
 /// (ux, uz, phi, vx, vz, Omega) at places from 0 to 1 along the beam, by the shape functions of its elements
 /// of order p.
 template <int p>
-std::vector<double> field(const State& state, int elements, const std::vector<double>& places) {
+std::vector<double> field(const State& state, const Numbering& numbering, const std::vector<double>& places) {
+  const int elements = numbering.elements();
   std::vector<double> values;
   values.reserve(6 * places.size());
   for (double place : places) {
@@ -23,8 +25,8 @@ std::vector<double> field(const State& state, int elements, const std::vector<do
       for (int b = 0; b <= p; ++b)
         if (b != a) shape *= (x - b) / (a - b);
       for (int k = 0; k < 3; ++k) {
-        sum[k] += shape * state.u[3 * (e * p + a) + k];
-        sum[3 + k] += shape * state.v[3 * (e * p + a) + k];
+        sum[k] += shape * state.u[numbering.first(e) + 3 * a + k];
+        sum[3 + k] += shape * state.v[numbering.first(e) + 3 * a + k];
       }
     }
     values.insert(values.end(), sum, sum + 6);

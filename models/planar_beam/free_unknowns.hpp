@@ -5,9 +5,10 @@
 
 namespace gnomon::planar_beam {
 
-/// The unknowns that no support holds, as y = (u_f, w), and back. Where supports prescribe motions
-/// s(t), w = v_f + M_ff^-1 M_fc s'(t): it is v_f without what s' gives it at once. So it stays
-/// continuous where s' jumps and the impulse makes v_f jump, and M_ff w' = f_f needs no s''. Else w = v_f.
+/// The unknowns that no support holds and no hinge ties to others, as y = (u_f, w), and back. Where supports
+/// prescribe motions s(t), w = v_f + M_ff^-1 M_fc s'(t): it is v_f without what s' gives it at once. So it
+/// stays continuous where s' jumps and the impulse makes v_f jump, and M_ff w' = f_f needs no s''. Else w =
+/// v_f.
 template <class Beam>
 class FreeUnknowns {
  public:
@@ -45,6 +46,8 @@ class FreeUnknowns {
       state.v[end.unknown] = rate;
       for (int i = 0; i < count(); ++i) state.v[beam_->free()[i]] += rate * end.response[i];
     }
+    beam_->numbering().spread(state.u.data());
+    beam_->numbering().spread(state.v.data());
     state.strain = beam_->strains(state.u.data());
     return state;
   }
@@ -54,6 +57,7 @@ class FreeUnknowns {
   const double* displacements(double t, const double* y) const {
     for (const Driven& end : driven_) u_[end.unknown] = end.motion->value(t);
     for (int i : beam_->free()) u_[i] = *y++;
+    beam_->numbering().spread(u_.data());
     return u_.data();
   }
   /// Velocities of the free unknowns just behind t.
@@ -78,6 +82,7 @@ class FreeUnknowns {
     w_.setZero(beam_->unknowns());
     external_.resize(f_.size());
     for (int i = 0; i < count(); ++i) w_[beam_->free()[i]] = y[count() + i];
+    beam_->numbering().spread(w_.data());
     beam_->momentum(w_.data(), external_.data());
     f_ -= beam_->damping() * external_;
   }

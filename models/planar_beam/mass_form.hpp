@@ -55,6 +55,7 @@ class MassForm : public FreeUnknowns<Beam> {
   static std::vector<int> places(const Beam& beam) {
     std::vector<int> place(beam.unknowns(), -1);
     for (std::size_t i = 0; i < beam.free().size(); ++i) place[beam.free()[i]] = static_cast<int>(i);
+    for (int i : beam.numbering().tied()) place[i] = place[i + 3];
     return place;
   }
   SparseLayout layout_;

@@ -15,7 +15,7 @@ class NewtonElimination : private FreeUnknowns<Beam> {
  public:
   explicit NewtonElimination(const Beam& beam)
       : FreeUnknowns<Beam>(beam),
-        chain_(beam.elements(), beam.held()),
+        chain_(beam.elements(), beam.held(), beam.numbering().hinged()),
         tangents_(beam.elements()),
         along_u_(Eigen::VectorXd::Zero(beam.unknowns())),
         along_w_(Eigen::VectorXd::Zero(beam.unknowns())),
@@ -31,6 +31,9 @@ class NewtonElimination : private FreeUnknowns<Beam> {
     const double damped = 1.0 + gamma * this->beam_->damping();
     double inertia[3];
     for (int k = 0; k < 3; ++k) inertia[k] = damped * this->beam_->density(k);
+    this->beam_->for_hinge_springs([&](int k, double stiffness) {
+      chain_.set_spring(k, -gamma * gamma * stiffness, gamma * gamma * stiffness);
+    });
     for (int e = 0; e < this->beam_->elements(); ++e) {
       matrix_ = gamma * gamma * tangents_[e];
       for (int a = 0; a <= p; ++a)
@@ -47,10 +50,14 @@ class NewtonElimination : private FreeUnknowns<Beam> {
       along_u_[free[i]] = b[i];
       along_w_[free[i]] = b[n + i];
     }
+    const Numbering& numbering = this->beam_->numbering();
+    numbering.spread(along_u_.data());
+    numbering.spread(along_w_.data());
     this->beam_->momentum(along_w_.data(), right_.data());
     for (int e = 0; e < this->beam_->elements(); ++e)
-      right_.segment<size_>(3 * p * e).noalias() -=
-          gamma_ * (tangents_[e] * along_u_.segment<size_>(3 * p * e));
+      right_.segment<size_>(numbering.first(e)).noalias() -=
+          gamma_ * (tangents_[e] * along_u_.segment<size_>(numbering.first(e)));
+    this->beam_->add_hinge_moments(-gamma_, along_u_.data(), right_.data());
     chain_.solve(right_.data());
     for (int i = 0; i < n; ++i) {
       b[n + i] = right_[free[i]];

@@ -38,8 +38,15 @@ class OdeForm : public FreeUnknowns<Beam> {
     const double* u = this->displacements(t, y);
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(beam.unknowns(), beam.unknowns());
     constexpr int p = Beam::order, size = Element<p>::unknowns;
+    const Numbering& numbering = beam.numbering();
     for (int e = 0; e < beam.elements(); ++e)
-      K.block<size, size>(3 * p * e, 3 * p * e) += beam.element_tangent(t, u, e);
+      K.block<size, size>(numbering.first(e), numbering.first(e)) += beam.element_tangent(t, u, e);
+    beam.for_hinge_springs([&](int k, double stiffness) {
+      const int sides[2] = {numbering.left_rotation(k), numbering.right_rotation(k)};
+      for (int i : sides)
+        for (int j : sides) K(i, j) += i == j ? stiffness : -stiffness;
+    });
+    for (int i : numbering.tied()) K.col(i + 3) += K.col(i);
     for (int j = 0; j < n; ++j) {
       auto column = K.col(beam.free()[j]);
       beam.accelerate(column.data());

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace gnomon::planar_beam {
 
 template <int p>
 PlanarBeam<p>::PlanarBeam(Data data)
-    : data_(std::move(data)), element_(data_.length / data_.elements), nodes_(data_.elements * p + 1) {
+    : data_(std::move(data)),
+      element_(data_.length / data_.elements),
+      numbering_(p, data_.elements, hinged(data_)) {
   place_nodes();
   place_points();
   add_loads();
@@ -16,6 +19,14 @@ PlanarBeam<p>::PlanarBeam(Data data)
   scales_ = estimate_scales(
       data_, centre_, last_position(), turning_inertia(),
       kinetic_energy(initial_.v) + strain_energy(initial_.strain) + spring_energy(initial_.u));
+}
+
+template <int p>
+std::vector<int> PlanarBeam<p>::hinged(const Data& data) {
+  std::vector<int> elements;
+  for (const Hinge& hinge : data.hinges)
+    elements.push_back(static_cast<int>(std::lround(hinge.at / (data.length / data.elements))));
+  return elements;
 }
 
 template <int p>
@@ -49,9 +60,10 @@ void PlanarBeam<p>::add_load(const Load& load, double factor, double* force) con
 }
 
 template <int p>
-void PlanarBeam<p>::external_force(double t, double* force) const {
+void PlanarBeam<p>::external_force(double t, double* force, Sides sides) const {
   std::fill(force, force + unknowns(), 0.0);
   for (const Load& load : loads_) add_load(load, load.factor(t), force);
+  if (sides == Sides::joined) numbering_.join(force);
 }
 
 template <int p>
@@ -74,10 +86,13 @@ void PlanarBeam<p>::add_following(double t, const double* u, double* force) cons
 }
 
 template <int p>
-void PlanarBeam<p>::internal_force(const double* u, double* force) const {
+void PlanarBeam<p>::internal_force(const double* u, double* force, Sides sides) const {
   std::fill(force, force + unknowns(), 0.0);
   for (int e = 0; e < elements(); ++e)
-    for (int g = 0; g < p; ++g) element_.add_force(g, strain_at(u, e, g).force(section()), force + 3 * p * e);
+    for (int g = 0; g < p; ++g)
+      element_.add_force(g, strain_at(u, e, g).force(section()), force + numbering_.first(e));
+  add_hinge_moments(1.0, u, force);
+  if (sides == Sides::joined) numbering_.join(force);
   for (int end = 0; end < 2; ++end) force[end_unknown(end) + 2] += spring(end) * u[end_unknown(end) + 2];
 }
 
@@ -102,21 +117,33 @@ typename Element<p>::Matrix PlanarBeam<p>::element_tangent(double t, const doubl
 }
 
 template <int p>
-void PlanarBeam<p>::momentum(const double* v, double* product) const {
+void PlanarBeam<p>::momentum(const double* v, double* product, Sides sides) const {
   std::fill(product, product + unknowns(), 0.0);
-  for (int e = 0; e < elements(); ++e)
+  for (int e = 0; e < elements(); ++e) {
+    const int first = numbering_.first(e);
     for (int a = 0; a <= p; ++a)
       for (int b = 0; b <= p; ++b)
         for (int k = 0; k < 3; ++k)
-          product[3 * (e * p + a) + k] += element_.mass[a][b] * density(k) * v[3 * (e * p + b) + k];
+          product[first + 3 * a + k] += element_.mass[a][b] * density(k) * v[first + 3 * b + k];
+  }
+  if (sides == Sides::joined) numbering_.join(product);
 }
 
 template <int p>
 void PlanarBeam<p>::accelerate(double* force) const {
+  numbering_.join(force);
   for (int i : held_) force[i] = 0.0;
-  MassBand<p>::solve(mass_[0], mass_[mass_.size() == 3 ? 1 : 0], mass_.back(), force);
+  const MassBand<p>& along_z = mass_[mass_.size() == 3 ? 1 : 0];
+  if (has_hinges()) {
+    mass_[0].solve(mass_index_[0], force);
+    along_z.solve(mass_index_[1], force);
+    mass_.back().solve(mass_index_[2], force);
+    numbering_.spread(force);
+  } else {
+    MassBand<p>::solve(mass_[0], along_z, mass_.back(), force);
+  }
   const double place = 1.0 / section().rhoA, rotation = 1.0 / section().rhoI;
-  for (int i = 0; i < nodes_; ++i) {
+  for (int i = 0; i < nodes(); ++i) {
     force[3 * i] *= place;
     force[3 * i + 1] *= place;
     force[3 * i + 2] *= rotation;
@@ -136,7 +163,7 @@ typename PlanarBeam<p>::Vector PlanarBeam<p>::strains(const double* u) const {
 
 template <int p>
 PointStrain PlanarBeam<p>::strain_at(const double* u, int e, int g) const {
-  const double* nodal = u + 3 * p * e;
+  const double* nodal = u + numbering_.first(e);
   double s1 = 0, s2 = 0, s3 = 0, rotation = 0;
   for (int a = 0; a <= p; ++a) {
     s1 += element_.slope[g][a] * nodal[3 * a];
@@ -172,7 +199,17 @@ std::vector<Probe> PlanarBeam<p>::probes(const State& state) const {
   const auto at = [&](const char* name, int i) {
     return Probe{name, {{"x", state.u[i]}, {"z", state.u[i + 1]}, {"phi", state.u[i + 2]}}};
   };
-  return {at("start", 0), at("end", unknowns() - 3)};
+  std::vector<Probe> probes{at("start", 0), at("end", unknowns() - 3)};
+  for (std::size_t k = 0; k < data_.hinges.size(); ++k) {
+    const int left = numbering_.left_rotation(static_cast<int>(k)),
+              right = numbering_.right_rotation(static_cast<int>(k));
+    probes.push_back({"hinge" + std::to_string(k + 1),
+                      {{"x", state.u[left - 2]},
+                       {"z", state.u[left - 1]},
+                       {"phi", state.u[left]},
+                       {"jump", state.u[right] - state.u[left]}}});
+  }
+  return probes;
 }
 
 template <int p>
@@ -234,6 +271,10 @@ double PlanarBeam<p>::spring_energy(const Vector& u) const {
     const double phi = u[end_unknown(end) + 2];
     sum += 0.5 * spring(end) * phi * phi;
   }
+  for_hinge_springs([&](int k, double stiffness) {
+    const double turn = u[numbering_.right_rotation(k)] - u[numbering_.left_rotation(k)];
+    sum += 0.5 * stiffness * turn * turn;
+  });
   return sum;
 }
 
@@ -258,8 +299,8 @@ double PlanarBeam<p>::energy_of_jump(double t, const Vector& v) const {
     for (int e = 0; e < elements(); ++e)
       for (int a = 0; a <= p; ++a)
         for (int b = 0; b <= p; ++b)
-          sum += density(k) * element_.mass[a][b] * jump_at(e * p + a) *
-                 (v[3 * (e * p + b) + k] + 0.5 * jump_at(e * p + b));
+          sum += density(k) * element_.mass[a][b] * jump_at(node(e, a)) *
+                 (v[3 * node(e, b) + k] + 0.5 * jump_at(node(e, b)));
   }
   return sum;
 }
@@ -279,7 +320,7 @@ std::array<double, 3> PlanarBeam<p>::momenta(const State& state) const {
   for (int e = 0; e < elements(); ++e)
     for (int a = 0; a <= p; ++a)
       for (int b = 0; b <= p; ++b) {
-        const int i = e * p + a, j = e * p + b;
+        const int i = node(e, a), j = node(e, b);
         const double m = element_.mass[a][b] * section().rhoA;
         const double x = positions_[2 * i] + state.u[3 * i], z = positions_[2 * i + 1] + state.u[3 * i + 1];
         const double vx = state.v[3 * j], vz = state.v[3 * j + 1];
@@ -300,20 +341,24 @@ double PlanarBeam<p>::angle(double x) const {
 
 template <int p>
 void PlanarBeam<p>::place_nodes() {
-  positions_.resize(2 * static_cast<std::size_t>(nodes_));
+  positions_.resize(2 * static_cast<std::size_t>(nodes()));
+  const int last = elements() * p;
   const double half_turn = 0.5 * data_.curvature;
   std::array<double, 2> from = data_.start;  // of the piece between two bends, as are the next two
   double direction = data_.angle;
   int first = 0;
   std::size_t bend = 0;
-  for (int i = 0; i < nodes_; ++i) {
+  for (int i = 0; i <= last; ++i) {
     // A chord of a circle: length sin(k x/2)/(k/2), direction that of the tangent at x/2.
-    const double x = data_.length * (i - first) / (nodes_ - 1), a = half_turn * x;
+    const double x = data_.length * (i - first) / last, a = half_turn * x;
     const double chord = std::abs(a) < 1e-4 ? x * (1.0 - a * a / 6.0) : std::sin(a) / half_turn;
-    positions_[2 * i] = from[0] + chord * std::cos(direction + a);
-    positions_[2 * i + 1] = from[1] + chord * std::sin(direction + a);
-    if (bend < data_.bends.size() && i == node_at(data_.bends[bend].at)) {
-      from = {positions_[2 * i], positions_[2 * i + 1]};
+    const std::array<double, 2> at{from[0] + chord * std::cos(direction + a),
+                                   from[1] + chord * std::sin(direction + a)};
+    const int end_of = std::max(i - 1, 0) / p;
+    std::copy(at.begin(), at.end(), positions_.begin() + 2 * node(end_of, i - p * end_of));
+    if (i % p == 0 && i < last) std::copy(at.begin(), at.end(), positions_.begin() + 2 * node(i / p, 0));
+    if (bend < data_.bends.size() && i == p * element_from(data_.bends[bend].at)) {
+      from = at;
       direction += 2.0 * a + data_.bends[bend++].angle;
       first = i;
     }
@@ -321,7 +366,7 @@ void PlanarBeam<p>::place_nodes() {
   for (int k = 0; k < 2; ++k) {
     double sum = 0.0;
     for (int e = 0; e < elements(); ++e)
-      for (int a = 0; a <= p; ++a) sum += element_.load[a] * positions_[2 * (e * p + a) + k];
+      for (int a = 0; a <= p; ++a) sum += element_.load[a] * positions_[2 * node(e, a) + k];
     centre_[k] = sum / data_.length;
   }
 }
@@ -338,8 +383,8 @@ void PlanarBeam<p>::place_points() {
       }
       double d1 = 0.0, d2 = 0.0;
       for (int a = 0; a <= p; ++a) {
-        d1 += element_.slope[g][a] * positions_[2 * (e * p + a)];
-        d2 += element_.slope[g][a] * positions_[2 * (e * p + a) + 1];
+        d1 += element_.slope[g][a] * positions_[2 * node(e, a)];
+        d2 += element_.slope[g][a] * positions_[2 * node(e, a) + 1];
       }
       points_.push_back({d1, d2, -(c * d1 + s * d2), -(-s * d1 + c * d2), -phi0});
     }
@@ -372,11 +417,15 @@ void PlanarBeam<p>::hold_ends() {
   const auto& ends = data_.supports;
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < 3; ++k)
-      if (ends[end].holds(k)) held_.push_back(3 * (end == 0 ? 0 : nodes_ - 1) + k);
-  for (int i = 0; i < unknowns(); ++i)
-    if (!std::binary_search(held_.begin(), held_.end(), i)) free_.push_back(i);
+      if (ends[end].holds(k)) held_.push_back(end_unknown(end) + k);
+  const std::vector<int>& tied = numbering_.tied();
+  for (int i = 0; i < unknowns(); ++i) {
+    const bool ties = std::binary_search(tied.begin(), tied.end(), i);
+    if (!ties && !std::binary_search(held_.begin(), held_.end(), i)) free_.push_back(i);
+    if (!ties && has_hinges()) mass_index_[i % 3].push_back(i);
+  }
   const auto band = [&](int k) {
-    return MassBand<p>(element_, elements(), ends[0].holds(k), ends[1].holds(k));
+    return MassBand<p>(element_, numbering_, k < 2, ends[0].holds(k), ends[1].holds(k));
   };
   mass_.push_back(band(0));
   if (ends[0].slide || ends[1].slide) mass_.push_back(band(1));
@@ -388,11 +437,11 @@ void PlanarBeam<p>::hold_ends() {
 
 template <int p>
 typename PlanarBeam<p>::Vector PlanarBeam<p>::response_to(int driven) const {
-  Vector unit = Vector::Zero(unknowns()), forces(unknowns()), response(nodes_);
+  Vector unit = Vector::Zero(unknowns()), forces(unknowns()), response(nodes());
   unit[driven] = 1.0;
   momentum(unit.data(), forces.data());
   accelerate(forces.data());
-  for (int i = 0; i < nodes_; ++i) response[i] = -forces[3 * i + driven % 3];
+  for (int i = 0; i < nodes(); ++i) response[i] = -forces[3 * i + driven % 3];
   response[driven / 3] = 1.0;
   return response;
 }
@@ -407,7 +456,7 @@ typename PlanarBeam<p>::State PlanarBeam<p>::start_state() const {
     return state;
   }
   const double w = data_.angular_velocity;
-  for (int i = 0; i < nodes_; ++i) {
+  for (int i = 0; i < nodes(); ++i) {
     state.v[3 * i] = data_.velocity[0] + w * (positions_[2 * i + 1] - centre_[1]);
     state.v[3 * i + 1] = data_.velocity[1] - w * (positions_[2 * i] - centre_[0]);
     state.v[3 * i + 2] = w;
@@ -422,7 +471,7 @@ double PlanarBeam<p>::scalar_product(const double* a, const double* b) const {
   double sum = 0.0;
   for (int e = 0; e < elements(); ++e)
     for (int i = 0; i <= p; ++i)
-      for (int j = 0; j <= p; ++j) sum += element_.mass[i][j] * a[3 * (e * p + i)] * b[3 * (e * p + j)];
+      for (int j = 0; j <= p; ++j) sum += element_.mass[i][j] * a[3 * node(e, i)] * b[3 * node(e, j)];
   return sum;
 }
 
@@ -440,7 +489,7 @@ bool PlanarBeam<p>::is_free_at_last() const {
 
 template <int p>
 std::array<double, 2> PlanarBeam<p>::last_position() const {
-  return {positions_[2 * (nodes_ - 1)], positions_[2 * (nodes_ - 1) + 1]};
+  return {positions_[2 * nodes() - 2], positions_[2 * nodes() - 1]};
 }
 
 template <int p>
@@ -448,7 +497,7 @@ double PlanarBeam<p>::turning_inertia() const {
   double sum = section().rhoI * data_.length;
   for (int k = 0; k < 2; ++k) {
     Vector arm(unknowns());
-    for (int i = 0; i < nodes_; ++i) arm[3 * i] = positions_[2 * i + k] - centre_[k];
+    for (int i = 0; i < nodes(); ++i) arm[3 * i] = positions_[2 * i + k] - centre_[k];
     sum += section().rhoA * scalar_product(arm.data(), arm.data());
   }
   return sum;

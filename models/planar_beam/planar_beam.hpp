@@ -15,6 +15,7 @@
 #include "models/planar_beam/field.hpp"
 #include "models/planar_beam/mass.hpp"
 #include "models/planar_beam/mass_form.hpp"
+#include "models/planar_beam/numbering.hpp"
 #include "models/planar_beam/ode.hpp"
 #include "models/planar_beam/scales.hpp"
 #include "models/planar_beam/static_form.hpp"
@@ -45,8 +46,10 @@ class PlanarBeam {
   const Element<p>& element() const { return element_; }
   const CrossSection& section() const { return data_.section; }
   int elements() const { return data_.elements; }
-  int nodes() const { return nodes_; }
-  int unknowns() const { return 3 * nodes_; }
+  /// Which unknowns are whose; those of hinges are there twice.
+  const Numbering& numbering() const { return numbering_; }
+  int nodes() const { return unknowns() / 3; }
+  int unknowns() const { return numbering_.unknowns(); }
   int point_count() const { return data_.elements * p; }
   const PointReference& point(int k) const { return points_[k]; }
   /// Positions (x, z) of the nodes at rest, one after the other, m.
@@ -55,6 +58,7 @@ class PlanarBeam {
   const std::array<double, 2>& centre() const { return centre_; }
   /// The unknowns that a support holds or prescribes, ascending.
   const std::vector<int>& held() const { return held_; }
+  /// Those that are neither held nor tied to others at a hinge, ascending.
   const std::vector<int>& free() const { return free_; }
   /// An unknown that a support moves. `response` are the rates of the same unknown of all nodes at a unit
   /// jump of the prescribed rate: 1 at that node, -M_ff^-1 M_fc elsewhere.
@@ -76,7 +80,7 @@ class PlanarBeam {
     for (const Driven& one : driven_) {
       const double change = one.motion.rate_after(t) - one.motion.rate_before(t);
       if (change != 0.0)
-        for (int i = 0; i < nodes_; ++i) v[3 * i + one.unknown % 3] += change * one.response[i];
+        for (int i = 0; i < nodes(); ++i) v[3 * i + one.unknown % 3] += change * one.response[i];
     }
   }
 
@@ -98,7 +102,7 @@ class PlanarBeam {
   /// Adds the nodal forces of a load, dead, times a factor.
   void add_load(const Load& load, double factor, double* force) const;
   /// Nodal forces of the dead loads at time t, N and N m.
-  void external_force(double t, double* force) const;
+  void external_force(double t, double* force, Sides sides = Sides::joined) const;
   /// The load at an end that turns with its section, at time t and rotation phi: its force R(phi)^T f and the
   /// derivative of that by phi.
   struct Following {
@@ -120,9 +124,25 @@ class PlanarBeam {
   /// Adds the followers' forces in the configuration u.
   void add_following(double t, const double* u, double* force) const;
   /// Nodal forces that the strained beam exerts against u: the derivative of its strain energy by u.
-  void internal_force(const double* u, double* force) const;
-  /// The derivative of the internal force of one element, that of the springs at its ends included, by its
-  /// own nodal values.
+  void internal_force(const double* u, double* force, Sides sides = Sides::joined) const;
+  bool has_hinges() const { return !numbering_.hinged().empty(); }
+  /// Calls `body(k, stiffness)` for the hinges that have a spring; N m/rad.
+  template <class Body>
+  void for_hinge_springs(Body&& body) const {
+    for (std::size_t k = 0; k < data_.hinges.size(); ++k)
+      if (data_.hinges[k].spring != 0.0) body(static_cast<int>(k), data_.hinges[k].spring);
+  }
+  /// Adds the moments of the hinges' springs at the rotations of u, times a factor, to the internal forces.
+  void add_hinge_moments(double factor, const double* u, double* force) const {
+    for_hinge_springs([&](int k, double stiffness) {
+      const int left = numbering_.left_rotation(k), right = numbering_.right_rotation(k);
+      const double moment = factor * stiffness * (u[right] - u[left]);
+      force[left] -= moment;
+      force[right] += moment;
+    });
+  }
+  /// The derivative of the internal force of one element, that of the springs at its ends included but not
+  /// that of hinges' springs, by its own nodal values.
   typename Element<p>::Matrix element_tangent(const double* u, int e) const;
   /// The derivative of internal less external force of one element at time t: not symmetric where a load
   /// follows.
@@ -137,8 +157,9 @@ class PlanarBeam {
   /// Density of unknown k of a node: rho A for places, rho I for the rotation.
   double density(int k) const { return k < 2 ? section().rhoA : section().rhoI; }
   /// M v, for all unknowns.
-  void momentum(const double* v, double* product) const;
-  /// Turns nodal forces into accelerations, those of held unknowns into 0.
+  void momentum(const double* v, double* product, Sides sides = Sides::joined) const;
+  /// Turns nodal forces into accelerations, those of held unknowns into 0. Forces on tied displacements count
+  /// as in Numbering::join.
   void accelerate(double* force) const;
   /// (epsilon, gamma, kappa) at all integration points.
   Vector strains(const double* u) const;
@@ -149,7 +170,8 @@ class PlanarBeam {
   State restore(const std::vector<double>& flat) const;
   std::vector<Named> observe(const State& state) const;
 
-  /// Displacement (x, z) [m] and rotation phi [rad] of both ends.
+  /// Displacement (x, z) [m] and rotation phi [rad] of both ends; of hinges the rotation on the left, and
+  /// what that on the right exceeds it by.
   std::vector<Probe> probes(const State& state) const;
 
   /// L2 norms over the beam, divided by sqrt(L): displacement [m], rotation [rad], and of their rates.
@@ -157,7 +179,7 @@ class PlanarBeam {
 
   /// See field.hpp.
   std::vector<double> field(const State& state, const std::vector<double>& places) const {
-    return planar_beam::field<p>(state, elements(), places);
+    return planar_beam::field<p>(state, numbering_, places);
   }
   static std::array<double, 4> field_distance(const std::vector<double>& field,
                                               const std::vector<double>& reference) {
@@ -190,13 +212,16 @@ class PlanarBeam {
   std::unique_ptr<StaticSystem> statics(LoadCase load_case = LoadCase::last) const {
     return std::make_unique<StaticForm<PlanarBeam>>(*this, load_case);
   }
-  bool is_constrained() const { return !held_.empty(); }
+  bool is_constrained() const { return !held_.empty() || has_hinges(); }
 
  private:
   /// phi0 at arc length x.
   double angle(double x) const;
-  /// The node where two elements meet at arc length x.
-  int node_at(double x) const { return p * static_cast<int>(std::lround(x / element_.length)); }
+  /// The element that begins at arc length x, where two elements meet.
+  int element_from(double x) const { return static_cast<int>(std::lround(x / element_.length)); }
+  static std::vector<int> hinged(const Data& data);
+  /// The number of node a of element e.
+  int node(int e, int a) const { return numbering_.first(e) / 3 + a; }
 
   void place_nodes();
   void place_points();
@@ -211,10 +236,12 @@ class PlanarBeam {
     if (load.at == Place::distributed) {
       for (int e = 0; e < elements(); ++e)
         for (int a = 0; a <= p; ++a)
-          for (int k = 0; k < 3; ++k) add(3 * (e * p + a) + k, element_.load[a] * f[k]);
+          for (int k = 0; k < 3; ++k) add(numbering_.first(e) + 3 * a + k, element_.load[a] * f[k]);
     } else {
-      const int node = load.at == Place::start ? 0 : load.at == Place::end ? nodes_ - 1 : node_at(load.x);
-      for (int k = 0; k < 3; ++k) add(3 * node + k, f[k]);
+      const int first = load.at == Place::start ? 0
+                        : load.at == Place::end ? unknowns() - 3
+                                                : numbering_.first(element_from(load.x));
+      for (int k = 0; k < 3; ++k) add(first + k, f[k]);
     }
   }
   /// int a b dx of two interpolated fields, nodal values three apart.
@@ -230,7 +257,7 @@ class PlanarBeam {
 
   Data data_;
   Element<p> element_;
-  int nodes_;
+  Numbering numbering_;
   std::vector<double> positions_;
   std::array<double, 2> centre_{};
   std::vector<PointReference> points_;
@@ -238,6 +265,8 @@ class PlanarBeam {
       followers_;  ///< dead ones, moments of followers among them, and followers' forces
   std::vector<int> held_, free_;
   std::vector<MassBand<p>> mass_;  ///< of x and z, or of both, and of rotations
+  /// Of x, z and rotations the unknowns in the order of their mass matrix; empty without hinges.
+  std::array<std::vector<int>, 3> mass_index_;
   std::vector<Driven> driven_;
   State initial_;
   Scales scales_;

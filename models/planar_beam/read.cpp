@@ -42,9 +42,30 @@ Json read_bends(Table& beam, Data& data) {
   return resolved;
 }
 
+/// Joints that turn freely or against a spring, each where two elements meet.
+Json read_hinges(Table& beam, Data& data) {
+  Json resolved = Json::array();
+  for (Table& table : beam.sections("hinges")) {
+    table.only({"at", "spring"});
+    const std::string meeting =
+        fmt::format("a multiple of {:.6g} m, where two elements meet, behind the hinge before it",
+                    data.length / data.elements);
+    Hinge hinge{};
+    hinge.at = table.number("at", meeting);
+    if (!is_meeting(hinge.at, data) || (!data.hinges.empty() && !(data.hinges.back().at < hinge.at)))
+      table.fail("at", table.shown("at"), meeting);
+    resolved.push_back({{"at", hinge.at}});
+    if (table.has("spring"))
+      resolved.back()["spring"] = hinge.spring =
+          table.positive("spring", "a positive number (torsion spring between both sides, N m/rad)");
+    data.hinges.push_back(hinge);
+  }
+  return resolved;
+}
+
 void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
   beam.only({"length", "elements", "order", "EA", "GA", "EI", "rhoA", "rhoI", "start", "angle", "curvature",
-             "gravity", "damping", "bends", "geometry"});
+             "gravity", "damping", "bends", "hinges", "geometry"});
   data.length = beam.positive("length", "a positive number (m)");
   data.elements = beam.integer("elements", 1, 1'000'000, "a whole number from 1 to 1000000");
   order = beam.integer("order", 1, 4, "a whole number from 1 to 4 (polynomial order of an element)");
@@ -68,7 +89,7 @@ void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
   if (turn > 1.5)
     beam.fail("curvature", fmt::format("{}, {:.3g} rad an element", beam.shown("curvature"), turn),
               "at most 1.5 rad an element");
-  const Json bends = read_bends(beam, data);
+  const Json bends = read_bends(beam, data), hinges = read_hinges(beam, data);
   const planar_beam::CrossSection& s = data.section;
   resolved["beam"] = {{"length", data.length},
                       {"elements", data.elements},
@@ -85,6 +106,7 @@ void read_beam(Table& beam, Data& data, int& order, Json& resolved) {
                       {"damping", data.damping},
                       {"bends", bends},
                       {"geometry", geometry}};
+  if (!hinges.empty()) resolved["beam"]["hinges"] = hinges;
 }
 
 /// True where the beam is to start in equilibrium.
@@ -130,6 +152,10 @@ void check_motion(const PlanarBeam<p>& beam, const Table& root) {
       if (data.u[i] != 0.0 || data.v[i] != 0.0)
         root.fail("initial", root.shown("initial"),
                   "a state in which the supported ends are at rest in place");
+    for (int i : beam.numbering().tied())
+      if (data.u[i] != data.u[i + 3] || data.v[i] != data.v[i + 3])
+        root.fail("initial", root.shown("initial"),
+                  "a state in which both sides of a hinge are in one place");
     return;
   }
   const double w = data.angular_velocity,

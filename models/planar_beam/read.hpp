@@ -8,7 +8,8 @@ ParsedModel read(Section& root, double t_end);
 
 inline constexpr ModelEntry entry{
     .name = "planar_beam",
-    .summary = "planar geometrically exact beam: elements of order 1 to 4, bends, supports, loads, statics",
+    .summary =
+        "planar geometrically exact beam: elements of order 1 to 4, bends, hinges, supports, loads, statics",
     .citation =
         "E. Reissner, ZAMP 23 (1972) 795-804; J.C. Simo, L. Vu-Quoc, J. Appl. Mech. 53 (1986) 849-863; "
         "notation "

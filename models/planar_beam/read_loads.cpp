@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -61,6 +62,10 @@ bool is_meeting(double x, const Data& data) {
          std::abs(x - std::round(x / element) * element) <= 1e-9 * element;
 }
 
+bool is_same_meeting(double x, double y, const Data& data) {
+  return std::abs(x - y) <= 0.5 * data.length / data.elements;
+}
+
 void read_loads(Section& root, Data& data, Json& resolved) {
   resolved["loads"] = Json::array();
   for (Section& table : root.sections("loads")) {
@@ -72,6 +77,11 @@ void read_loads(Section& root, Data& data, Json& resolved) {
         table.numbers_or("force", {0.0, 0.0}, "two finite numbers (x, z, N or N/m)");
     load.force = {force[0], force[1]};
     load.moment = table.number_or("moment", 0.0, "a finite number (about +y, N m or N m/m)");
+    const auto at_load = [&](const Hinge& hinge) { return is_same_meeting(hinge.at, load.x, data); };
+    if (load.at == Place::inside && load.moment != 0.0 &&
+        std::any_of(data.hinges.begin(), data.hinges.end(), at_load))
+      table.fail("moment", fmt::format("{} at a hinge", table.shown("moment")),
+                 "a moment elsewhere, as a hinge bears none");
     load.follower = table.flag("follower");
     if (load.follower && load.at != Place::start && load.at != Place::end)
       table.fail("follower", "true for a load that is not at an end", "false, or at = \"start\" or \"end\"");

@@ -9,6 +9,9 @@ namespace gnomon::planar_beam {
 /// Whether two elements meet at arc length x.
 bool is_meeting(double x, const Data& data);
 
+/// Whether two such places are the same.
+bool is_same_meeting(double x, double y, const Data& data);
+
 /// Reads `[supports]`; missing ends are free.
 void read_supports(Section& root, Data& data, nlohmann::ordered_json& resolved);
 

@@ -42,25 +42,28 @@ void read_saved_state(Section& initial, const Json& beam, Data& data) {
                : "which names no model",
            "a state of model planar_beam");
   const Json other = scene.value("beam", Json::object());
-  for (const char* key : {"length", "elements", "order", "start", "angle", "curvature", "bends"})
-    if (const Json value = other.is_object()
-                               ? other.value(key, key == std::string("bends") ? Json::array() : Json())
-                               : Json();
-        value != beam.at(key))
+  const auto value_of = [](const Json& of, const char* key) {
+    const bool list = key == std::string("bends") || key == std::string("hinges");
+    return of.is_object() ? of.value(key, list ? Json::array() : Json()) : Json();
+  };
+  for (const char* key : {"length", "elements", "order", "start", "angle", "curvature", "bends", "hinges"})
+    if (const Json value = value_of(other, key), own = value_of(beam, key); value != own)
       refuse(fmt::format("a beam with {} = {}", key, output::plain_text(value.dump())),
-             fmt::format("one with {} = {}", key, beam.at(key).dump()));
+             fmt::format("one with {} = {}", key, own.dump()));
   if (const Json status = run.value("status", Json()); status != "ok")
     refuse(fmt::format("a run that ended with status {}", output::plain_text(status.dump())),
            "a run with status \"ok\"");
   const std::size_t count =
-      3 * (beam.at("elements").get<std::size_t>() * beam.at("order").get<std::size_t>() + 1);
+      3 *
+      (beam.at("elements").get<std::size_t>() * beam.at("order").get<std::size_t>() + 1 + data.hinges.size());
   const Json state = run.value("state", Json::object());
   const auto values = [&](const char* key) {
     const Json list = state.is_object() ? state.value(key, Json()) : Json();
     if (!list.is_array() || list.size() != count)
       refuse(list.is_array() ? fmt::format("{} numbers in state.{}", list.size(), key)
                              : fmt::format("which has no list state.{}", key),
-             fmt::format("{} numbers (ux, uz, phi of every node)", count));
+             fmt::format("{} numbers (ux, uz, phi of every node{})", count,
+                         data.hinges.empty() ? "" : ", of a hinge's on both sides"));
     std::vector<double> numbers;
     for (const Json& value : list) {
       if (!value.is_number() || !std::isfinite(value.get<double>()))

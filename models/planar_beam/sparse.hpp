@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "models/planar_beam/element.hpp"
+#include "models/planar_beam/numbering.hpp"
 #include "src/ode.hpp"
 
 namespace gnomon::planar_beam {
@@ -49,11 +50,15 @@ class ChainMatrices {
       layout.add(row_ + to_row, to_column);
       if (i % 3 == j % 3) layout.add(row_ + to_row, column_ + to_column);
     });
+    for_each_spring([&](double, int to_row, int to_column) { layout.add(row_ + to_row, to_column); });
   }
   void find(const SparseLayout& layout) {
     for_each([&](int e, int i, int j, int to_row, int to_column) {
       stiffness_.push_back({e, i, j, layout.slot(row_ + to_row, to_column)});
       if (i % 3 == j % 3) mass_.push_back({e, i, j, layout.slot(row_ + to_row, column_ + to_column)});
+    });
+    for_each_spring([&](double stiffness, int to_row, int to_column) {
+      springs_.push_back({stiffness, layout.slot(row_ + to_row, to_column)});
     });
   }
   void add_stiffness(double t, const double* u, double factor, double* values) const {
@@ -63,6 +68,7 @@ class ChainMatrices {
       if (at.e != e) K = beam_->element_tangent(t, u, e = at.e);
       values[at.slot] += factor * K(at.i, at.j);
     }
+    for (const SpringEntry& at : springs_) values[at.slot] += factor * at.stiffness;
   }
   void add_mass(double factor, double* values) const {
     for (const Entry& at : mass_)
@@ -80,14 +86,29 @@ class ChainMatrices {
     for (int e = 0; e < beam_->elements(); ++e)
       for (int j = 0; j < Element<p>::unknowns; ++j)
         for (int i = 0; i < Element<p>::unknowns; ++i) {
-          const int to_row = place_[3 * p * e + i], to_column = place_[3 * p * e + j];
+          const int to_row = place_[beam_->numbering().first(e) + i],
+                    to_column = place_[beam_->numbering().first(e) + j];
           if (to_row >= 0 && to_column >= 0) body(e, i, j, to_row, to_column);
         }
+  }
+  struct SpringEntry {
+    double stiffness;
+    long slot;
+  };
+  template <class Body>
+  void for_each_spring(Body&& body) const {
+    const Numbering& numbering = beam_->numbering();
+    beam_->for_hinge_springs([&](int k, double stiffness) {
+      const int sides[2] = {place_[numbering.left_rotation(k)], place_[numbering.right_rotation(k)]};
+      for (int to_row : sides)
+        for (int to_column : sides) body(to_row == to_column ? stiffness : -stiffness, to_row, to_column);
+    });
   }
   const Beam* beam_;
   std::vector<int> place_;
   int row_, column_;
   std::vector<Entry> stiffness_, mass_;
+  std::vector<SpringEntry> springs_;
 };
 
 }  // namespace gnomon::planar_beam

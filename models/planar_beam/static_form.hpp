@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/planar_beam/element_chain.hpp"
+#include "models/planar_beam/rigid_motion.hpp"
 #include "src/statics.hpp"
 
 namespace gnomon::planar_beam {
@@ -20,10 +21,12 @@ class StaticForm final : public StaticSystem {
   StaticForm(const Beam& beam, LoadCase load_case)
       : beam_(&beam),
         time_(load_case == LoadCase::first ? 0.0 : std::numeric_limits<double>::infinity()),
-        chain_(beam.elements(), beam.held()),
+        chain_(beam.elements(), beam.held(), beam.numbering().hinged()),
         dead_(Vector::Zero(beam.unknowns())),
         internal_(beam.unknowns()) {
     for (const Load& load : beam.dead_loads()) beam.add_load(load, factor_of(load), dead_.data());
+    beam.numbering().join(dead_.data());
+    beam.for_hinge_springs([&](int k, double stiffness) { chain_.set_spring(k, -stiffness, stiffness); });
     const CrossSection& C = beam.section();
     roundoff_ = 4.0 * std::numeric_limits<double>::epsilon() * std::max(C.EA, C.GA) *
                 std::sqrt(static_cast<double>(beam.nodes()));
@@ -32,22 +35,13 @@ class StaticForm final : public StaticSystem {
   double lever(int unknown) const override { return unknown % 3 == 2 ? beam_->data().length : 1.0; }
   double roundoff() const override { return roundoff_; }
 
-  /// A rigid motion that neither supports nor springs hinder would be free.
+  /// A rigid motion that neither supports nor hinges nor springs hinder would be free.
   std::string refusal() const override {
     for (const auto& one : beam_->driven())
       if (time_ != 0.0 && !one.motion.ends_at_rest()) return "a beam whose support does not come to rest";
-    Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
-    const double L = beam_->data().length;
-    for (int end = 0; end < 2; ++end) {
-      const int node = beam_->end_unknown(end) / 3;
-      const double x = beam_->positions()[2 * node] - beam_->centre()[0],
-                   z = beam_->positions()[2 * node + 1] - beam_->centre()[1];
-      const Eigen::RowVector3d rows[3] = {{1.0, 0.0, z / L}, {0.0, 1.0, -x / L}, {0.0, 0.0, 1.0}};
-      for (int k = 0; k < 3; ++k)
-        if (beam_->data().supports[end].holds(k) || (k == 2 && beam_->spring(end) > 0.0))
-          held += rows[k].transpose() * rows[k];
-    }
-    return held.determinant() > 1e-9 ? "" : "a beam that can move freely as a rigid body";
+    if (is_held_rigidly(beam_->data(), beam_->numbering(), beam_->positions(), beam_->centre())) return "";
+    return beam_->has_hinges() ? "a beam whose pieces can move freely as rigid bodies"
+                               : "a beam that can move freely as a rigid body";
   }
 
   void prescribe(double factor, double* u) const override {
@@ -82,6 +76,7 @@ class StaticForm final : public StaticSystem {
         const auto part = moved.template segment<size_>(first(e));
         if (!part.isZero(0.0)) rate.template segment<size_>(first(e)) -= tangent(factor, u, e) * part;
       }
+      beam_->numbering().join(out);
     }
     for (int i : beam_->held()) rate[i] = 0.0;
   }
@@ -99,7 +94,7 @@ class StaticForm final : public StaticSystem {
   using Vector = Eigen::VectorXd;
   static constexpr int p = Beam::order, size_ = Element<p>::unknowns;
 
-  static int first(int e) { return 3 * p * e; }
+  int first(int e) const { return beam_->numbering().first(e); }
   double factor_of(const Load& load) const { return time_ == 0.0 ? load.factor(0.0) : load.final_factor(); }
   /// The followers at an end, whole.
   typename Beam::Following following(const double* u, int end) const {

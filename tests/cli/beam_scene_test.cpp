@@ -51,6 +51,8 @@ TEST_CASE("cli: the beam scene that the malformed ones are made from is right", 
         whole + load + "profile = { kind = \"ramp\", over = 1 }\n",
         whole + load + "follower = true\nprofile = { kind = \"table\", t = [0, 1], value = [1, 2] }\n",
         whole + "damping = 1\n[[beam.bends]]\nat = 0.5\nangle = 1\n[[loads]]\nat = 0.5\n",
+        whole + "[[beam.hinges]]\nat = 0.5\nspring = 2\n[[beam.bends]]\nat = 0.5\nangle = 1\n[[loads]]\nat = "
+                "0.5\nforce = [1, 2]\n",
         whole + "[supports]\nstart = { kind = \"sliding\", along = \"z\", spring = 1 }\nend = { kind = "
                 "\"moved\", z = { kind = \"half-sine\", to = 1, over = 2 }, rotation = \"clamped\" }\n",
         whole + "[supports]\nend = { kind = \"moved\", x = { kind = \"spin-up\", rate = 1, over = 2 }, "
@@ -77,6 +79,8 @@ TEST_CASE(
   const std::string ends = "one of free, pinned, clamped, or a table { kind = .., .. }";
   const std::string bend = "[[beam.bends]]\n";
   const std::string meeting = "a multiple of 0.5 m, where two elements meet, behind the bend before it";
+  const std::string hinge = "[[beam.hinges]]\n";
+  const std::string joint = "a multiple of 0.5 m, where two elements meet, behind the hinge before it";
   const std::string times = "at least two ascending numbers, the first 0 (s)";
   const std::vector<Case> cases{
       {top,
@@ -90,7 +94,7 @@ TEST_CASE(
        "supports, t_end"},
       {whole + "width = 1\n",
        "s.toml:13: beam.width: found an unknown key, expected one of length, elements, order, EA, GA, EI, "
-       "rhoA, rhoI, start, angle, curvature, gravity, damping, bends, geometry"},
+       "rhoA, rhoI, start, angle, curvature, gravity, damping, bends, hinges, geometry"},
       {with("length", "0"), "s.toml:5: beam.length: found 0, expected a positive number (m)"},
       {without("length"), "s.toml:4: beam.length: found nothing, expected a positive number (m)"},
       {with("elements", "0"), "s.toml:6: beam.elements: found 0, expected a whole number from 1 to 1000000"},
@@ -128,6 +132,28 @@ TEST_CASE(
        "s.toml:17: beam.bends[1].at: found 0.5, expected " + meeting},
       {whole + bend + "at = 0.5\nangel = 1\n",
        "s.toml:15: beam.bends[0].angel: found an unknown key, expected angle"},
+      {whole + "hinges = 3\n", "s.toml:13: beam.hinges: found 3, expected tables [[beam.hinges]]"},
+      {whole + hinge, "s.toml:13: beam.hinges[0].at: found nothing, expected " + joint},
+      {whole + hinge + "at = 0.3\n", "s.toml:14: beam.hinges[0].at: found 0.3, expected " + joint},
+      {whole + hinge + "at = 0.0\n", "s.toml:14: beam.hinges[0].at: found 0.0, expected " + joint},
+      {whole + hinge + "at = 1.0\n", "s.toml:14: beam.hinges[0].at: found 1.0, expected " + joint},
+      {whole + hinge + "at = \"middle\"\n",
+       "s.toml:14: beam.hinges[0].at: found \"middle\", expected " + joint},
+      {whole + hinge + "at = 0.5\n" + hinge + "at = 0.5\n",
+       "s.toml:16: beam.hinges[1].at: found 0.5, expected " + joint},
+      {whole + hinge + "at = 0.5\nspring = 0\n",
+       "s.toml:15: beam.hinges[0].spring: found 0, expected a positive number (torsion spring between both "
+       "sides, N m/rad)"},
+      {whole + hinge + "at = 0.5\nangle = 1\n",
+       "s.toml:15: beam.hinges[0].angle: found an unknown key, expected one of at, spring"},
+      {whole + hinge + "at = 0.5\n[[loads]]\nat = 0.5\nmoment = 2\n",
+       "s.toml:17: loads[0].moment: found 2 at a hinge, expected a moment elsewhere, as a hinge bears none"},
+      {whole + hinge +
+           "at = 0.5\n[supports]\nstart = \"pinned\"\nend = \"pinned\"\n[initial]\nstate = "
+           "\"static\"\n",
+       "s.toml:18: initial: found a beam whose pieces can move freely as rigid bodies, expected supports "
+       "that "
+       "hold the beam where it is to start in equilibrium"},
       // Supports.
       {supports + "left = \"free\"\n",
        "s.toml:14: supports.left: found an unknown key, expected one of start, end"},
@@ -283,6 +309,31 @@ TEST_CASE("cli: a saved state is where the next run begins", "[cli][planar_beam]
   CHECK(second["scenes"][0]["initial"]["state"] == "state/x.json");
   CHECK(second["scenes"][0]["initial"]["state_hash"] != third["scenes"][0]["initial"]["state_hash"]);
   CHECK(run_from(first)["scenes"][0]["initial"] == second["scenes"][0]["initial"]);
+}
+
+TEST_CASE("cli: a state with a hinge is saved with both sides of it", "[cli][planar_beam]") {
+  const std::string hinged = whole + "[[beam.hinges]]\nat = 0.5\n", from = "[initial]\nstate = \"x.json\"\n";
+  const std::string push = load + "force = [0, 1]\n";
+  const Json first = saved(hinged + push);
+  CHECK(first["runs"][0]["state"]["u"].size() == 12);
+  CHECK(first["runs"][0]["probes"]["hinge1"]["jump"].get<double>() ==
+        first["runs"][0]["state"]["u"][8].get<double>() - first["runs"][0]["state"]["u"][5].get<double>());
+  CHECK(std::abs(first["runs"][0]["probes"]["hinge1"]["jump"].get<double>()) >= 0.1);
+  const TemporaryFolder folder;
+  write_text(folder.path() / "s.toml", hinged + from + push);
+  write_text(folder.path() / "x.json", first.dump());
+  const Outcome outcome = run_program(run_beam_of("s.toml", {"--json", "-"}), folder.path());
+  INFO(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  Json apart = first;
+  apart["runs"][0]["state"]["u"][3] = 0.25;
+  check_refused({{"s.toml", hinged + from}, {"x.json", apart.dump()}}, run_beam_of("s.toml"),
+                "s.toml:15: initial: found { state = \"x.json\" }, expected a state in which both sides of a "
+                "hinge are in one place");
+  check_refused(
+      {{"s.toml", hinged + from}, {"x.json", saved(whole).dump()}}, run_beam_of("s.toml"),
+      "s.toml:16: initial.state: found 'x.json', a beam with hinges = [], expected one with hinges = "
+      "[{\"at\":0.5}]");
 }
 
 TEST_CASE("cli: a saved state of another beam is refused", "[cli][planar_beam]") {

@@ -42,20 +42,32 @@ TEST_CASE("beam schemes: steps allocate nothing", "[planar_beam][allocation]") {
   check_steps<beam::BeamBathe>(arm, 0.01, 100);
   check_steps<beam::BeamVerlet>(arm, 0.01, 100);
   check_steps<beam::BeamVerletConsistent>(arm, 0.01, 100);
+  Data hinged = soft_beam(4);
+  hinged.hinges = {{0.25, 0.4}, {0.5}};
+  const PlanarBeam<1> linear(hinged);
+  check_steps<beam::BeamEnergyMomentum>(PlanarBeam<2>(hinged), 0.01, 100);
+  check_steps<beam::BeamMidpoint>(linear, 0.01, 100);
+  check_steps<beam::BeamTrapezoidal>(linear, 0.01, 100);
+  check_steps<beam::BeamVerlet>(linear, 0.01, 100);
+  check_steps<beam::BeamVerletConsistent>(linear, 0.01, 100);
   // Large steps, too, which need line search and continuation.
   check_steps<beam::BeamEnergyMomentum>(PlanarBeam<3>(flying_beam(10, 100.0)), 0.5, 20);
 }
 
 TEST_CASE("planar beam: rates and invariants allocate nothing", "[planar_beam][allocation]") {
-  const PlanarBeam<1> model(soft_arm(4, 0.5));
-  const auto ode = model.ode();
-  std::vector<double> y(static_cast<std::size_t>(ode.size())), rate(y.size());
-  const auto state = model.initial();
-  ode.pack(0.0, state, y.data());
-  ode.rhs(0.0, y.data(), rate.data());
-  double found[4];
-  CHECK(allocations_of([&] {
-          ode.rhs(0.0, y.data(), rate.data());
-          model.invariants(0.0, state, found);
-        }) == 0);
+  Data hinged = soft_arm(4, 0.5);
+  hinged.hinges = {{0.5, 1.0}};
+  for (const Data& data : {soft_arm(4, 0.5), hinged}) {
+    const PlanarBeam<1> model(data);
+    const auto ode = model.ode();
+    std::vector<double> y(static_cast<std::size_t>(ode.size())), rate(y.size());
+    const auto state = model.initial();
+    ode.pack(0.0, state, y.data());
+    ode.rhs(0.0, y.data(), rate.data());
+    double found[4];
+    CHECK(allocations_of([&] {
+            ode.rhs(0.0, y.data(), rate.data());
+            model.invariants(0.0, state, found);
+          }) == 0);
+  }
 }

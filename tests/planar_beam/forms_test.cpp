@@ -141,7 +141,8 @@ template <int p>
 
   // The constrained form has the same motion; its start is consistent, the hidden constraint included.
   const auto constrained = beam.dae_constraints();
-  const int all = constrained.size(), m = static_cast<int>(beam.held().size());
+  const int all = constrained.size(),
+            m = static_cast<int>(beam.held().size() + beam.numbering().tied().size());
   check_dae(constrained, t);
   VectorXd z(all), z_rate(all), value(all);
   constrained.pack(t, ode.unpack(t, y.data()), z.data());
@@ -152,7 +153,7 @@ template <int p>
     const planar_beam::Motion* motion = beam.prescribed(beam.held()[k]);
     CHECK(z_rate[beam.unknowns() + beam.held()[k]] == (motion ? motion->acceleration_after(t) : 0.0));
   }
-  CHECK(z_rate.tail(m).norm() >= 1.0);                          // forces of the supports,
+  CHECK(z_rate.tail(m).norm() >= 1.0);                          // forces of the supports and hinges,
   CHECK(z_rate.segment(2 * beam.unknowns(), m).norm() == 0.0);  // whose other multipliers vanish
   const auto& free = beam.free();
   for (std::size_t i = 0; i < free.size(); ++i) {
@@ -205,6 +206,29 @@ TEST_CASE("planar beam: the forms with a moved, a sliding and a sprung end, a fo
   const auto inner = beam.element_tangent(u.data(), 2), whole = beam.element_tangent(1.3, u.data(), 2);
   CHECK((inner - inner.transpose()).norm() <= 1e-14 * inner.norm());
   CHECK((whole - whole.transpose()).norm() >= 10.0);
+}
+
+TEST_CASE("planar beam: the forms with hinges", "[planar_beam]") {
+  Data driven = driven_beam(4);
+  driven.hinges = {{2.5, 30.0}, {5.0}};
+  check_forms<1>(driven);
+  check_forms<2>(driven);
+  check_forms<4>(driven);
+  Data loaded = loaded_beam(4);
+  loaded.hinges = {{2.5}, {7.5, 30.0}};
+  check_forms<1>(loaded);
+  check_forms<3>(loaded);
+  // Forces of the hinges act on both sides, in opposite directions.
+  const PlanarBeam<2> beam(driven);
+  const VectorXd u = random_values(beam.unknowns(), 1.0, 8);
+  VectorXd joined(beam.unknowns()), apart(beam.unknowns());
+  beam.internal_force(u.data(), joined.data());
+  beam.internal_force(u.data(), apart.data(), planar_beam::Sides::apart);
+  for (int i : beam.numbering().tied()) {
+    CHECK(joined[i] == 0.0);
+    CHECK(joined[i + 3] == apart[i] + apart[i + 3]);
+    CHECK(std::abs(apart[i]) >= 1.0);
+  }
 }
 
 TEST_CASE("planar beam: the forms where a prescribed rate jumps", "[planar_beam]") {

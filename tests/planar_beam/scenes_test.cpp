@@ -43,7 +43,9 @@ TEST_CASE("planar beam: every shipped scene runs with both midpoint schemes", "[
                            "elastica",
                            "roll-up",
                            "shallow-arch",
-                           "lee-frame"})
+                           "lee-frame",
+                           "double-pendulum",
+                           "four-bar-mechanism"})
     CHECK(std::count(names.begin(), names.end(), name) == 1);
 }
 

@@ -8,8 +8,8 @@
 namespace gnomon::beam::linear {
 
 /// The scheme on a beam of linear elements: steps of the kernels where Newton's iteration converges quickly,
-/// of the general stepper elsewhere, and wherever springs, followers or damping act. The solutions agree to
-/// what the tolerance leaves.
+/// of the general stepper elsewhere, and wherever springs, followers, hinges or damping act. The solutions
+/// agree to what the tolerance leaves.
 template <BeamForm M, Turning turning>
 class FastStepper {
  public:
@@ -23,7 +23,7 @@ class FastStepper {
     if (!kernels || model.elements() < kernels->lanes || options.modified_newton ||
         options.linear_solver != LinearSolver::block)
       return;
-    if (model.has_springs() || model.has_followers() || model.damping() != 0.0) return;
+    if (model.has_springs() || model.has_followers() || model.damping() != 0.0 || model.has_hinges()) return;
     const planar_beam::CrossSection& C = model.section();
     Beam beam{model.elements(),
               model.element().length,
