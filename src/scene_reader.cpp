@@ -210,7 +210,15 @@ std::vector<std::string> Section::values(std::string_view key, std::string_view 
   const toml::array* array = require(key, expected).as_array();
   if (!array || array->empty()) fail(key, shown(key), expected);
   std::vector<std::string> list;
-  for (const toml::node& entry : *array) list.push_back(shown_value(entry));
+  for (const toml::node& entry : *array) {
+    list.push_back(shown_value(entry));
+    // The shorter of the spellings 10000000000.0 and 1e+10.
+    const std::optional<double> number = entry.is_floating_point() ? entry.value<double>() : std::nullopt;
+    const std::string brief = number ? fmt::format("{:g}", *number) : "";
+    if (brief.find('e') != std::string::npos && brief.size() < list.back().size() &&
+        std::stod(brief) == *number)
+      list.back() = brief;
+  }
   return list;
 }
 

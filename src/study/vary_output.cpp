@@ -136,10 +136,27 @@ Table varied_costs_table(const std::vector<Comparison>& variants, const Variatio
   return table;
 }
 
+namespace {
+
+/// Of the errors from 1e-3 to 1e-6 the one at which most costs are known and not only bounded.
+std::size_t telling_level(const std::vector<Comparison>& variants) {
+  std::size_t best = 1, most = 0;
+  for (std::size_t level = 1; level <= 4; ++level) {
+    std::size_t known = 0;
+    for (const Comparison& study : variants)
+      for (const CostRow& cost : study.costs)
+        known += cost.evaluations[level] && !cost.evaluations[level]->upper_bound;
+    if (known > most) best = level, most = known;
+  }
+  return best;
+}
+
+}  // namespace
+
 output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector<Comparison>& variants,
                                    const Variation& variation) {
   const MetricInfo metric = variants.front().scene.model->metrics()[0];
-  constexpr std::size_t level = 1;
+  const std::size_t level = telling_level(variants);
   output::Figure figure;
   figure.title = fmt::format("{}: cost of {} of {:g} {}", varied_name(variants), one_error(variants),
                              variants.front().levels[level], metric.unit);

@@ -56,7 +56,8 @@ TEST_CASE("study file: what it says is read", "[study]") {
   REQUIRE(beams.vary.size() == 1);
   CHECK(beams.vary[0].variation.key == "beam.EA,beam.GA");
   CHECK(beams.vary[0].variation.numbers().value().back() == 1e10);
-  CHECK(beams.vary[0].time_limit == 1.0);
+  CHECK(beams.vary[0].variation.values.back() == "1e+10");
+  CHECK(beams.vary[0].time_limit == 2.0);
   REQUIRE(beams.speed.size() >= 3);
   CHECK(beams.speed[0].scalar);
   CHECK(beams.speed[0].integrators.size() == 2);
