@@ -149,9 +149,9 @@ template <int p>
   constrained.resume(t, z.data(), z_rate.data());
   constrained.residual(t, z.data(), z_rate.data(), value.data());
   CHECK(value.norm() <= 1e-13 * z_rate.norm());
-  for (int k = 0; k < m; ++k) {
-    const planar_beam::Motion* motion = beam.prescribed(beam.held()[k]);
-    CHECK(z_rate[beam.unknowns() + beam.held()[k]] == (motion ? motion->acceleration_after(t) : 0.0));
+  for (int i : beam.held()) {
+    const planar_beam::Motion* motion = beam.prescribed(i);
+    CHECK(z_rate[beam.unknowns() + i] == (motion ? motion->acceleration_after(t) : 0.0));
   }
   CHECK(z_rate.tail(m).norm() >= 1.0);                          // forces of the supports and hinges,
   CHECK(z_rate.segment(2 * beam.unknowns(), m).norm() == 0.0);  // whose other multipliers vanish
@@ -213,11 +213,10 @@ TEST_CASE("planar beam: the forms with hinges", "[planar_beam]") {
   driven.hinges = {{2.5, 30.0}, {5.0}};
   check_forms<1>(driven);
   check_forms<2>(driven);
-  check_forms<4>(driven);
   Data loaded = loaded_beam(4);
   loaded.hinges = {{2.5}, {7.5, 30.0}};
   check_forms<1>(loaded);
-  check_forms<3>(loaded);
+  check_forms<2>(loaded);
   // Forces of the hinges act on both sides, in opposite directions.
   const PlanarBeam<2> beam(driven);
   const VectorXd u = random_values(beam.unknowns(), 1.0, 8);
