@@ -29,6 +29,16 @@ concept HasExtendedOde = HasOde<M> &&
   model.extended_rhs(t, y, rate);
 };
 
+/// A model of independent parts, each a model of its own, of which a number is enough to tell errors by.
+template <class M>
+concept HasReferenceParts = requires(const M& model, std::size_t i, const std::vector<double>& bounds) {
+  { model.reference_parts() } -> std::convertible_to<std::size_t>;
+  model.reference_part(i);
+  // The state of these parts, and the bound of its errors from the largest of theirs.
+  model.join({model.reference_part(i).initial()});
+  { model.join_bounds(bounds) } -> std::same_as<std::array<double, M::metrics.size()>>;
+};
+
 namespace detail {
 
 /// At a break the data belong to what comes after; a segment that ends there sees the limit from its own
@@ -39,8 +49,10 @@ Real one_sided(Real t, double segment_end) {
                                : Real(std::nextafter(segment_end, -std::numeric_limits<double>::infinity()));
 }
 
+/// `accuracy` is what is asked of the scaled states in extended precision; 0: all that it can give.
 template <HasOde M, class Real>
-ReferenceStates certified_states(const M& model, const std::vector<double>& times, long max_evaluations) {
+ReferenceStates certified_states(const M& model, const std::vector<double>& times, long max_evaluations,
+                                 Real accuracy = 0) {
   const auto form = model.ode();
   const std::size_t n = static_cast<std::size_t>(form.size());
   std::vector<double> start(n);
@@ -69,6 +81,11 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
     options.target = 1e-10;
     options.steps_ratio = 16;
     options.max_evaluations = std::min(max_evaluations, 4'000'000L);
+  }
+  if (accuracy > 0) {
+    options.tight = accuracy / 100;
+    options.loose = 10 * accuracy;
+    options.target = accuracy;
   }
   const Certified<Real> solution = certify(rhs, problem, options);
 
@@ -99,10 +116,45 @@ ReferenceStates certified_states(const M& model, const std::vector<double>& time
   return reference;
 }
 
+/// Part by part.
+template <HasReferenceParts M>
+ReferenceStates joined_states(const M& model, const std::vector<double>& times, long max_evaluations) {
+  using Part = decltype(model.reference_part(0));
+  ReferenceStates reference;
+  std::vector<std::vector<typename Part::State>> states(times.size());
+  std::vector<std::vector<double>> bounds(times.size(), std::vector<double>(Part::metrics.size(), 0.0));
+  const std::size_t count = model.reference_parts();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Part part = model.reference_part(i);
+    ReferenceStates own = certified_states<Part, long double>(part, times, max_evaluations, 1e-15L);
+    if (own.kind.empty()) {
+      reference.message = "part " + std::to_string(i + 1) + ": " + own.message;
+      return reference;
+    }
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      states[k].push_back(part.restore(own.states[k]));
+      for (std::size_t metric = 0; metric < bounds[k].size(); ++metric)
+        bounds[k][metric] = std::max(bounds[k][metric], own.bounds[k][metric]);
+    }
+    if (i > 0) continue;
+    reference.methods = std::move(own.methods);
+    for (std::string& method : reference.methods)
+      method += ", the first " + std::to_string(count) + " parts each by itself";
+  }
+  reference.kind = "certified";
+  reference.times = times;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    reference.states.push_back(model.flatten(model.join(states[k])));
+    const auto joined = model.join_bounds(bounds[k]);
+    reference.bounds.emplace_back(joined.begin(), joined.end());
+  }
+  return reference;
+}
+
 }  // namespace detail
 
-/// The closed form where the model has one, else the certified solution of its ODE form, in extended
-/// precision where the model's rates allow it. `times` ascend.
+/// The closed form where the model has one, else that of its parts, else the certified solution of its ODE
+/// form, in extended precision where the model's rates allow it. `times` ascend.
 template <Model M>
 ReferenceStates reference_states(const M& model, const std::vector<double>& times,
                                  long max_evaluations = 50'000'000) {
@@ -117,6 +169,8 @@ ReferenceStates reference_states(const M& model, const std::vector<double>& time
       reference.bounds.emplace_back(exact.bound.begin(), exact.bound.end());
     }
     return reference;
+  } else if constexpr (HasReferenceParts<M>) {
+    return detail::joined_states(model, times, max_evaluations);
   } else if constexpr (HasExtendedOde<M>) {
     return detail::certified_states<M, long double>(model, times, max_evaluations);
   } else if constexpr (HasOde<M>) {

@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "integrators/ensemble/lanes.hpp"
+#include "integrators/rotation/sinc_coefficients.hpp"
 
 namespace gnomon::ensemble {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Real is Lanes, or double for one body.
 template <class Real>
 struct Vector {
-  Real x, y, z;
+  Real x = 0.0, y = 0.0, z = 0.0;
 };
 
 template <class Real>
@@ -48,27 +49,6 @@ struct Sinc {
   Real sine, versine;
 };
 
-/// Up to this x^2, x = 1.25 rad, both are polynomials in x^2 of degree 7: they interpolate at Chebyshev
-/// nodes, their constant coefficient being kept exact. With the coefficients rounded to double they are off
-/// by at most 1.6e-17 and 8e-18 of the value, so that it is rounding alone that counts.
-constexpr double sinc_limit = 1.5625;
-constexpr double sine_coefficients[8] = {1.0,
-                                         -0.16666666666666666,
-                                         0.008333333333332851,
-                                         -0.00019841269840776478,
-                                         2.755731903444393e-06,
-                                         -2.505207369721675e-08,
-                                         1.6055782815851143e-10,
-                                         -7.494895594805586e-13};
-constexpr double versine_coefficients[8] = {0.5,
-                                            -0.041666666666666664,
-                                            0.001388888888888862,
-                                            -2.4801587301312778e-05,
-                                            2.755731911852423e-07,
-                                            -2.0876737688872267e-09,
-                                            1.1468931586384285e-11,
-                                            -4.694801929763846e-14};
-
 /// Estrin's scheme: the powers side by side.
 template <class Real>
 Real sum(const double (&c)[8], const Real& s, const Real& s2, const Real& s4) {
@@ -91,48 +71,34 @@ Sinc<Real> sinc(const Real& square) {
           sum(versine_coefficients, square, square2, square4)};
 }
 
-/// rot(p, .) of Munjiza (5.68), the rotation by the rotation vector p [rad], without the division by |p|:
-/// rot(p, a) = a cos|p| + p (p.a) (1 - cos|p|)/|p|^2 + (sin|p|/|p|) p x a. Keeps a reference to p.
+/// rot(p, .) of Munjiza (5.68), the rotation by the rotation vector p [rad], without the division by |p|, as
+/// a matrix: R = 1 + (sin|p|/|p|) hat(p) + ((1 - cos|p|)/|p|^2) hat(p)^2.
 template <class Real>
 class Rotation {
  public:
-  explicit Rotation(const Vector<Real>& p)
-      : p_(p), square_(dot(p, p)), factor_(sinc(square_)), cosine_(Real(1.0) - square_ * factor_.versine) {}
+  explicit Rotation(const Vector<Real>& p) {
+    const Real xx = p.x * p.x, yy = p.y * p.y, zz = p.z * p.z;
+    square_ = (xx + yy) + zz;
+    const auto [sine, versine] = sinc(square_);
+    const Vector<Real> s = sine * p;
+    const Real xy = versine * (p.x * p.y), xz = versine * (p.x * p.z), yz = versine * (p.y * p.z), one = 1.0;
+    x_ = {one - versine * (yy + zz), xy + s.z, xz - s.y};
+    y_ = {xy - s.z, one - versine * (xx + zz), yz + s.x};
+    z_ = {xz + s.y, yz - s.x, one - versine * (xx + yy)};
+  }
 
   Vector<Real> operator()(const Vector<Real>& a) const {
-    return (cosine_ * a + (factor_.versine * dot(p_, a)) * p_) + factor_.sine * cross(p_, a);
+    return {(x_.x * a.x + y_.x * a.y) + z_.x * a.z, (x_.y * a.x + y_.y * a.y) + z_.y * a.z,
+            (x_.z * a.x + y_.z * a.y) + z_.z * a.z};
   }
-  Vector<Real> inverse(const Vector<Real>& a) const {
-    return (cosine_ * a + (factor_.versine * dot(p_, a)) * p_) - factor_.sine * cross(p_, a);
-  }
+  Vector<Real> inverse(const Vector<Real>& a) const { return {dot(x_, a), dot(y_, a), dot(z_, a)}; }
   /// |p|^2
   const Real& square() const { return square_; }
-  const Vector<Real>& vector() const { return p_; }
-  const Sinc<Real>& factor() const { return factor_; }
 
  private:
-  const Vector<Real>& p_;
-  Real square_;
-  Sinc<Real> factor_;
-  Real cosine_;
+  Real square_ = 0.0;
+  Vector<Real> x_, y_, z_;  // columns
 };
-
-/// The columns of the matrix of a rotation.
-template <class Real>
-struct Columns {
-  Vector<Real> x, y, z;
-};
-
-template <class Real>
-Columns<Real> columns(const Rotation<Real>& rotation) {
-  const Vector<Real>& p = rotation.vector();
-  const Vector<Real> s = rotation.factor().sine * p, c = rotation.factor().versine * p;
-  const Real xx = c.x * p.x, yy = c.y * p.y, zz = c.z * p.z;
-  const Real xy = c.x * p.y, xz = c.x * p.z, yz = c.y * p.z, one = 1.0;
-  return {{one - (yy + zz), xy + s.z, xz - s.y},
-          {xy - s.z, one - (xx + zz), yz + s.x},
-          {xz + s.y, yz - s.x, one - (xx + yy)}};
-}
 
 }  // namespace
 }  // namespace gnomon::ensemble

@@ -72,10 +72,11 @@ bool step(const Range& range, std::size_t i, double h) {
   constexpr bool stage_moments = is_rkmk4 && load_kind == Load::gravity;
   using MomentType = std::conditional_t<has_moment, Moment<load_kind, Real>, NoMoment<Real>>;
   using Vec = Vector<Real>;
+  const auto twice = [](const Vec& a) { return a + a; };
 
   const Vec y = load_vector<Real>(range, Field::momentum, i);
   const Vec inverse = load_vector<Real>(range, Field::inverse_inertia, i);
-  const Real full = h, half = 0.5 * h, sixth = h / 6.0, two = 2.0;
+  const Real full = h, half = 0.5 * h, sixth = h / 6.0;
   const MomentType moment(range, i);
   const auto velocity = [&](const Rotation<Real>& stage, const Vec& stage_momentum) {
     return stage(product(inverse, stage.inverse(stage_momentum)));
@@ -104,14 +105,14 @@ bool step(const Range& range, std::size_t i, double h) {
   const Rotation<Real> stage3(p3);  // (5.87)
   if constexpr (stage_moments) {
     w4 = velocity(stage3, after(full, k3 = moment(stage2)));
-    end = after(sixth, moment() + two * (k2 + k3) + moment(stage3));
+    end = after(sixth, moment() + twice(k2 + k3) + moment(stage3));
   } else if constexpr (has_moment) {
     end = after(full, moment());
     w4 = velocity(stage3, end);  // (5.88)
   } else {
     w4 = velocity(stage3, y);
   }
-  Vec p = sixth * (w1 + two * (w2 + w3) + w4);                         // (5.89), (5.90)
+  Vec p = sixth * (w1 + twice(w2 + w3) + w4);                          // (5.89), (5.90)
   if constexpr (is_rkmk4) p = p - Real(h * h / 12.0) * cross(w1, w4);  // Munthe-Kaas, left action
   const Rotation<Real> turn(p);
   if constexpr (!std::is_same_v<Real, double>) {
@@ -120,12 +121,9 @@ bool step(const Range& range, std::size_t i, double h) {
       return false;
   }
 
-  const Columns<Real> R = columns(turn);
-  store_vector<Real>({dot(R.x, end), dot(R.y, end), dot(R.z, end)}, range, Field::momentum, i);  // (5.92)
-  for (std::size_t row = Field::attitude; row < Field::attitude + 9; row += 3) {                 // (5.91)
-    const Vec a = load_vector<Real>(range, row, i);
-    store_vector<Real>({dot(a, R.x), dot(a, R.y), dot(a, R.z)}, range, row, i);
-  }
+  store_vector<Real>(turn.inverse(end), range, Field::momentum, i);             // (5.92)
+  for (std::size_t row = Field::attitude; row < Field::attitude + 9; row += 3)  // (5.91)
+    store_vector<Real>(turn.inverse(load_vector<Real>(range, row, i)), range, row, i);
   return true;
 }
 

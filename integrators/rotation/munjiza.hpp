@@ -56,52 +56,52 @@ struct TriadStep {
   template <RotationForm M>
   [[gnu::flatten]] static Status step(const M& model, TriadState& state, double t, double h) {
     const Matrix3& A = state.attitude;
-    const Vector3 inverse = model.inertia().cwiseInverse();
-    const auto velocity = [&](const Rotation& stage, const Vector3& momentum) -> Vector3 {
-      return stage(inverse.cwiseProduct(stage.inverse(momentum)));
+    const Triple inverse(model.inertia().cwiseInverse());
+    const auto velocity = [&](const Rotation& stage, const Triple& momentum) {
+      return stage(product(inverse, stage.inverse(momentum)));
     };
     // M(t, A_s), in the body triad of time t
-    const auto moment = [&](double time, const Matrix3& stage) -> Vector3 {
-      return A.transpose() * model.moment(time, A * stage);
+    const auto moment = [&](double time, const Rotation& stage) {
+      return Triple(A.transpose() * model.moment(time, A * stage.matrix()));
     };
 
-    const Vector3 y = M::has_moment ? Vector3(A.transpose() * state.momentum) : state.body_momentum;
-    Vector3 y2 = y, y3 = y, y4 = y, k1 = Vector3::Zero(), k2 = k1, k3 = k1;
+    const Triple y(M::has_moment ? Vector3(A.transpose() * state.momentum) : state.body_momentum);
+    Triple y2 = y, y3 = y, y4 = y, k1(0.0, 0.0, 0.0), k2 = k1, k3 = k1;
     if constexpr (M::has_moment) {
-      k1 = A.transpose() * model.moment(t, A);
-      y2 += (variant.stage_moments ? 0.5 : variant.half_stage_impulse) * h * k1;
+      k1 = Triple(A.transpose() * model.moment(t, A));
+      y2 = y2 + ((variant.stage_moments ? 0.5 : variant.half_stage_impulse) * h) * k1;
       y3 = y2;
-      y4 += h * k1;
+      y4 = y4 + h * k1;
     }
-    const Vector3 w1 = inverse.cwiseProduct(y);  // (5.79)
-    const Rotation stage1(0.5 * h * w1);         // (5.80), (5.81)
-    const Vector3 w2 = velocity(stage1, y2);     // (5.82)
+    const Triple w1 = product(inverse, y);   // (5.79)
+    const Rotation stage1((0.5 * h) * w1);   // (5.80), (5.81)
+    const Triple w2 = velocity(stage1, y2);  // (5.82)
     if constexpr (M::has_moment && variant.stage_moments) {
-      k2 = moment(t + 0.5 * h, stage1.matrix());
-      y3 = y + 0.5 * h * k2;
+      k2 = moment(t + 0.5 * h, stage1);
+      y3 = y + (0.5 * h) * k2;
     }
-    Vector3 p2 = 0.5 * h * w2;                                              // (5.83)
-    if constexpr (variant.commutators) p2 -= 0.125 * h * h * w1.cross(w2);  // Munthe-Kaas, left action
-    const Rotation stage2(p2);                                              // (5.84)
-    const Vector3 w3 = velocity(stage2, y3);                                // (5.85)
+    Triple p2 = (0.5 * h) * w2;                                                    // (5.83)
+    if constexpr (variant.commutators) p2 = p2 - (0.125 * h * h) * cross(w1, w2);  // Munthe-Kaas, left action
+    const Rotation stage2(p2);                                                     // (5.84)
+    const Triple w3 = velocity(stage2, y3);                                        // (5.85)
     if constexpr (M::has_moment && variant.stage_moments) {
-      k3 = moment(t + 0.5 * h, stage2.matrix());
+      k3 = moment(t + 0.5 * h, stage2);
       y4 = y + h * k3;
     }
-    const Rotation stage3(h * w3);            // (5.86), (5.87)
-    const Vector3 w4 = velocity(stage3, y4);  // (5.88)
+    const Rotation stage3(h * w3);           // (5.86), (5.87)
+    const Triple w4 = velocity(stage3, y4);  // (5.88)
     if constexpr (M::has_moment) {
       // (5.92): H(t+h) = H + M h, or with the weights of the classical method
       if constexpr (variant.stage_moments)
-        state.momentum += (h / 6.0) * (A * (k1 + 2.0 * (k2 + k3) + moment(t + h, stage3.matrix())));
+        state.momentum += (h / 6.0) * (A * (k1 + 2.0 * (k2 + k3) + moment(t + h, stage3)).vector());
       else
-        state.momentum += h * (A * k1);
+        state.momentum += h * (A * k1.vector());
     }
-    Vector3 p = (h / 6.0) * (w1 + 2.0 * (w2 + w3) + w4);                    // (5.89), (5.90)
-    if constexpr (variant.commutators) p -= (h * h / 12.0) * w1.cross(w4);  // Munthe-Kaas, left action
+    Triple p = (h / 6.0) * (w1 + 2.0 * (w2 + w3) + w4);                         // (5.89), (5.90)
+    if constexpr (variant.commutators) p = p - (h * h / 12.0) * cross(w1, w4);  // Munthe-Kaas, left action
     const Rotation whole(p);
-    if constexpr (!M::has_moment) state.body_momentum = whole.inverse(y);
-    state.attitude = A * whole.matrix();  // (5.91)
+    if constexpr (!M::has_moment) state.body_momentum = whole.inverse(y).vector();
+    state.attitude = whole.after(A);  // (5.91)
     return Status::ok;
   }
 };

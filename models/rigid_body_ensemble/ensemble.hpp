@@ -9,6 +9,7 @@
 
 #include "models/rigid_body/exact_free_top.hpp"
 #include "models/rigid_body/load.hpp"
+#include "models/rigid_body/rigid_body.hpp"
 #include "models/rigid_body/state.hpp"
 #include "models/rigid_body_ensemble/draw.hpp"
 #include "src/instruction_set.hpp"
@@ -43,7 +44,7 @@ class Ensemble {
 
   /// At least one body. `horizon` is the time the scene is run to [s].
   Ensemble(std::vector<Body> bodies, Execution execution, double horizon)
-      : bodies_(std::move(bodies)), execution_(execution) {
+      : bodies_(std::move(bodies)), execution_(execution), horizon_(horizon) {
     double rate = 0.0;
     for (const Body& body : bodies_) {
       const double largest = body.inertia.maxCoeff(), smallest = body.inertia.minCoeff();
@@ -115,10 +116,10 @@ class Ensemble {
   }
 
   /// Largest and root mean square over the bodies of the geodesic angle [rad] and of |m - m_ref| relative to
-  /// the larger of |m(0)| and |m_ref|.
+  /// the larger of |m(0)| and |m_ref|. A reference may hold the first bodies alone; then they are compared.
   std::array<double, 4> distance(const State& state, const State& reference) const {
     Spread orientation, momentum;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (std::size_t i = 0; i < reference.bodies.size(); ++i) {
       const rigid_body::State &body = state.bodies[i], &exact = reference.bodies[i];
       const double scale = std::max(bodies_[i].angular_momentum.norm(), exact.angular_momentum.norm());
       orientation.add(rigid_body::geodesic_angle(body.attitude, exact.attitude));
@@ -167,6 +168,25 @@ class Ensemble {
     *out++ = momentum.largest;
   }
 
+  /// Loaded bodies have no closed form: certified solutions, one a body, of the first ones. Bodies being
+  /// drawn at random, they stand for all.
+  std::size_t reference_parts() const requires has_moment {
+    return std::min<std::size_t>(bodies_.size(), 256);
+  }
+  rigid_body::RigidBody<LoadType> reference_part(std::size_t i) const requires has_moment {
+    const Body& body = bodies_[i];
+    const rigid_body::State initial{body.attitude, body.angular_momentum};
+    if constexpr (has_gravity)
+      return {body.inertia, initial, LoadType{1.0, body.load}, horizon_};
+    else
+      return {body.inertia, initial, LoadType{body.load}, horizon_};
+  }
+  State join(std::vector<rigid_body::State> bodies) const requires has_moment { return {std::move(bodies)}; }
+  /// Of orientation and momentum; no root mean square is larger than the largest.
+  std::array<double, 4> join_bounds(const std::vector<double>& largest) const requires has_moment {
+    return {largest[0], largest[0], largest[1], largest[1]};
+  }
+
   /// Every body by its closed form, in double precision.
   State closed_form(double t) const requires(!has_moment) { return closed_form_in<double>(t).state; }
   /// The same in extended precision, as a reference; its bound is the largest of all bodies.
@@ -213,6 +233,7 @@ class Ensemble {
 
   std::vector<Body> bodies_;
   Execution execution_;
+  double horizon_;
   std::vector<double> momentum_scales_, energies_;
   double time_scale_ = 1.0;
 };

@@ -195,3 +195,38 @@ TEST_CASE("ensemble: a scene that does not fit is refused", "[ensemble]") {
   CHECK(refusal("load.kind=\"gravity\"").find("load.weight_times_arm_N_m: found nothing") !=
         std::string::npos);
 }
+
+TEST_CASE("ensemble: loaded bodies are compared with certified solutions of the first ones", "[ensemble]") {
+  const Catalogue catalogue = full_catalogue();
+  const double t_end = 2.0;
+  for (const std::vector<std::string>& load : std::vector<std::vector<std::string>>{
+           {"load.kind=\"space_moment\"", "load.moment_N_m=[0.1, 0.5]"},
+           {"load.kind=\"gravity\"", "load.weight_times_arm_N_m=[0.1, 0.5]"}}) {
+    std::vector<std::string> set = load;
+    set.push_back("ensemble.bodies=6");
+    const Scene scene = small_scene(catalogue, set, t_end);
+    INFO(scene.model->load_class());
+    const ReferenceStates reference = scene.model->reference({t_end});
+    REQUIRE(reference.kind == "certified");
+    REQUIRE(reference.states[0].size() == 6 * 12);
+    for (const double bound : reference.bounds[0]) CHECK((bound > 0.0 && bound < 1e-13));
+    const auto error = [&](const char* scheme, double step) {
+      RunSpec spec;
+      spec.t_end = t_end;
+      spec.step = step;
+      return scene.model->distance(run_scheme(catalogue, scheme, *scene.model, spec).state,
+                                   reference.states[0]);
+    };
+    const double order = *catalogue.scheme("munjiza")->order_for(scene.model->load_class(), "orientation");
+    const auto munjiza = error("munjiza", 0.02), munjiza_half = error("munjiza", 0.01);
+    const auto rkmk4 = error("rkmk4", 0.04), rkmk4_half = error("rkmk4", 0.02);
+    for (const std::size_t metric : {0U, 1U}) {
+      CHECK(std::abs(std::log2(munjiza[metric] / munjiza_half[metric]) - order) < 0.1);
+      CHECK(std::abs(std::log2(rkmk4[metric] / rkmk4_half[metric]) - 4.0) < 0.15);
+    }
+    // More bodies than are compared change no error of these.
+    std::vector<double> more = reference.states[0];
+    more.insert(more.end(), 12, 0.0);
+    CHECK(scene.model->distance(more, reference.states[0])[0] == 0.0);
+  }
+}

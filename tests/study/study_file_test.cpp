@@ -102,7 +102,7 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
   CHECK(refusal(vary + "values = [1, 1.0]\n") ==
         "5: vary[0].values: found 1.0 twice, expected values of the key, every one once");
   CHECK(refusal(vary + "values = [1]\nwhat = \"speed\"\n") ==
-        "6: vary[0].what: found \"speed\", expected errors or stability");
+        "6: vary[0].what: found \"speed\", expected one of errors, stability");
   CHECK(refusal(vary + "values = [1]\nsteps = [0.1, 0]\n") ==
         "6: vary[0].steps: found [0.1, 0], expected one or more positive numbers (s)");
   CHECK(refusal(vary + "values = [1]\ntiming_budget = -1\n") ==
