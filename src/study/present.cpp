@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/environment.hpp"
+#include "src/output/figure_style.hpp"
 
 namespace gnomon {
 namespace {
@@ -250,6 +251,7 @@ output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector
   figure.hollow_note = "hollow: an upper bound, the loosest setting is more exact";
   if (timed) figure.panels.push_back(std::move(time));
   figure.panels.push_back(std::move(rates));
+  output::settle_styles(figure);
   return figure;
 }
 
@@ -407,6 +409,7 @@ output::Figure convergence_figure(const Catalogue& catalogue, const Convergence&
     add_bound(*panel, study);
     figure.panels.push_back(*panel);
   }
+  output::settle_styles(figure);
   return figure;
 }
 
@@ -438,6 +441,7 @@ output::Figure work_precision_figure(const Catalogue& catalogue, const Compariso
       std::any_of(study.rows.begin(), study.rows.end(), [](const Row& row) { return row.timing; });
   if (timed) figure.panels.push_back(time);
   figure.panels.push_back(rates);
+  output::settle_styles(figure);
   return figure;
 }
 
@@ -471,6 +475,7 @@ output::Figure drift_figure(const Catalogue& catalogue, const DriftStudy& study,
     panel.series.push_back(std::move(series));
   }
   figure.panels.push_back(std::move(panel));
+  output::settle_styles(figure);
   return figure;
 }
 
