@@ -344,7 +344,6 @@ class Study {
 
   bool make_scorecard(const std::string& model, const std::vector<Scene>& scenes,
                       const std::vector<StudyOptions>& options, output::Progress& progress) {
-    const auto first = static_cast<std::ptrdiff_t>(sections_.size());
     Document document = new_document();
     document.json()["scorecard"] = nlohmann::ordered_json::array();
     std::vector<Scorecard> cards;
@@ -375,9 +374,10 @@ class Study {
              {},
              {}},
             document);
+    // On the page it is the first of all.
+    sections_.pop_back();
     scorecards_.push_back(joint);
-    // It stands before the scenes that it sums up.
-    std::rotate(sections_.begin() + first, sections_.end() - 1, sections_.end());
+    scorecards_.back().notes.push_back("made by " + command("scorecard" + names, options.front()));
     return true;
   }
 

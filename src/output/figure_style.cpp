@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
+#include <set>
 
 namespace gnomon::output {
 namespace {
@@ -41,6 +43,23 @@ SeriesStyle style_of(int index) {
   const Hue hue = hues[cyclic(index, hues.size())];
   const Marker marker = markers[cyclic(index, markers.size())];
   return {hue.colour, hue.text, marker.filled, marker.hollow, dashes[cyclic(index, dashes.size())]};
+}
+
+void settle_styles(Figure& figure) {
+  constexpr int count = 30;
+  std::map<int, int> settled;
+  std::set<int> taken;
+  const auto settle = [&](int& style) {
+    const auto [place, is_new] = settled.try_emplace(style, static_cast<int>(cyclic(style, count)));
+    int& own = place->second;
+    for (int tries = 0; is_new && tries < count && taken.contains(own); ++tries) own = (own + 1) % count;
+    taken.insert(own);
+    style = own;
+  };
+  for (Panel& panel : figure.panels)
+    for (Series& series : panel.series) settle(series.style);
+  for (Panel& panel : figure.panels)
+    for (Failure& failure : panel.failures) settle(failure.style);
 }
 
 }  // namespace gnomon::output

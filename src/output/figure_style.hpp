@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "src/output/figure.hpp"
+
 namespace gnomon::output {
 
 struct SeriesStyle {
@@ -17,5 +19,9 @@ struct SeriesStyle {
 /// marker shapes and five dash patterns, each cycling with its own period. The first 42 styles differ in
 /// colour or marker, the first 30 in marker or dashes, that is, also without colour.
 SeriesStyle style_of(int index);
+
+/// Gives the curves of a figure styles among the first 30: their own, modulo 30, where no curve before has
+/// it, else the next one that is free. Curves of one style keep a common one, in every panel.
+void settle_styles(Figure& figure);
 
 }  // namespace gnomon::output

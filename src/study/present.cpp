@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "src/environment.hpp"
+#include "src/output/figure_style.hpp"
 
 namespace gnomon {
 namespace {
@@ -331,6 +332,7 @@ output::Figure convergence_figure(const Catalogue& catalogue, const Convergence&
     add_bound(*panel, study);
     figure.panels.push_back(*panel);
   }
+  output::settle_styles(figure);
   return figure;
 }
 
@@ -362,6 +364,7 @@ output::Figure work_precision_figure(const Catalogue& catalogue, const Compariso
       std::any_of(study.rows.begin(), study.rows.end(), [](const Row& row) { return row.timing; });
   if (timed) figure.panels.push_back(time);
   figure.panels.push_back(rates);
+  output::settle_styles(figure);
   return figure;
 }
 
@@ -395,6 +398,7 @@ output::Figure drift_figure(const Catalogue& catalogue, const DriftStudy& study,
     panel.series.push_back(std::move(series));
   }
   figure.panels.push_back(std::move(panel));
+  output::settle_styles(figure);
   return figure;
 }
 

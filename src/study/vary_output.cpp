@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/output/figure_style.hpp"
 #include "src/study/present.hpp"
 
 namespace gnomon {
@@ -185,6 +186,7 @@ output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector
   figure.hollow_note = "hollow: an upper bound, the loosest setting is more exact";
   if (timed) figure.panels.push_back(std::move(time));
   figure.panels.push_back(std::move(rates));
+  output::settle_styles(figure);
   return figure;
 }
 
@@ -254,6 +256,7 @@ output::Figure varied_errors_figure(const Catalogue& catalogue, const std::vecto
   }
   panel.series.push_back(std::move(bound));
   figure.panels.push_back(std::move(panel));
+  output::settle_styles(figure);
   return figure;
 }
 

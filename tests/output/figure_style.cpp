@@ -51,3 +51,26 @@ TEST_CASE("output: names are dark enough to read, curves to see") {
   }
   CHECK(contrast_on_white("#F0E442") < 1.5);  // the palette's yellow, which is left out
 }
+
+TEST_CASE("output: no two curves of a figure look alike, and one scheme is the same in all panels") {
+  Figure figure;
+  figure.panels.resize(2);
+  // 25 and 67 have a colour and a marker in common, 5 and 35 shape and dashes.
+  for (const int style : {25, 67, 5, 35, 65, 3}) figure.panels[0].series.push_back({"", {}, {}, {}, style});
+  for (const int style : {67, 99, 3}) figure.panels[1].series.push_back({"", {}, {}, {}, style});
+  figure.panels[1].failures = {{1.0, 35, ""}, {1.0, 99, ""}};
+  settle_styles(figure);
+  const auto& first = figure.panels[0].series;
+  const auto& second = figure.panels[1].series;
+  CHECK(first[0].style == 25);
+  CHECK(first[1].style == 7);
+  CHECK(first[2].style == 5);
+  CHECK(first[3].style == 6);
+  CHECK(first[4].style == 8);
+  CHECK(first[5].style == 3);
+  CHECK(second[0].style == first[1].style);
+  CHECK(second[1].style == 9);
+  CHECK(second[2].style == first[5].style);
+  CHECK(figure.panels[1].failures[0].style == first[3].style);
+  CHECK(figure.panels[1].failures[1].style == 9);
+}
