@@ -305,6 +305,7 @@ class Study {
     document.add(study);
     document.add_drifts(study);
     std::vector<output::Table> tables{drift_table(study)};
+    add_published(plan, tables.front());
     if (ladder) tables.insert(tables.begin(), drift_runs_table(study));
     std::string arguments = fmt::format("drift {} --t-end {:g} --step{} {:g}", plan.scene, *changes.t_end,
                                         ladder ? "s" : "", fmt::join(plan.steps, ","));

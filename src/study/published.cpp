@@ -49,4 +49,19 @@ std::string replace_section(const std::string& document, const std::string& name
   return document.substr(0, from + begin.size()) + "\n" + text + document.substr(to);
 }
 
+void add_published(const DriftPlan& plan, output::Table& drifts) {
+  if (plan.published.empty()) return;
+  for (const PublishedDrift& each : plan.published) {
+    std::vector<output::Cell> cells(drifts.columns.size());
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const std::string& key = drifts.columns[k].key;
+      if (key == "integrator") cells[k] = each.name + " (published)";
+      if (key == "invariant") cells[k] = each.invariant;
+      if (key == "max_drift") cells[k] = output::number_cell(each.max_drift);
+    }
+    drifts.rows.push_back(std::move(cells));
+  }
+  drifts.notes.push_back("published: " + plan.source);
+}
+
 }  // namespace gnomon

@@ -84,7 +84,8 @@ StudyPlan read_study(const std::string& path) {
   plan.quick_scorecard = root.texts("quick_scorecard", "names of scenes");
   plan.integrators = root.texts("integrators", "names of integrators");
   each("drift", [&](Section& section) {
-    section.only({"scene", "t_end", "quick_t_end", "step", "steps", "tol", "integrators"});
+    section.only(
+        {"scene", "t_end", "quick_t_end", "step", "steps", "tol", "integrators", "published", "source"});
     DriftPlan drift;
     drift.scene = section.text("scene", "a scene's name");
     drift.t_end = section.positive("t_end", "a positive number (s)");
@@ -97,6 +98,14 @@ StudyPlan read_study(const std::string& path) {
       drift.steps = section.positives("steps", "positive numbers (s), at least two");
     if (section.has("tol")) drift.tol = section.positive("tol", "a tolerance");
     drift.integrators = section.texts("integrators", "names of integrators");
+    for (Section& other : section.sections("published")) {
+      drift.published.push_back({other.text("name", "the name of a program"),
+                                 other.text("invariant", "the name of an invariant"),
+                                 other.positive("max_drift", "a positive number")});
+      other.finish();
+    }
+    drift.source = drift.published.empty() ? section.text_or("source", "", "where it was published")
+                                           : section.text("source", "where it was published");
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](Section& section) {

@@ -8,6 +8,12 @@
 
 namespace gnomon {
 
+/// A drift that somebody else's program has, as published.
+struct PublishedDrift {
+  std::string name, invariant;
+  double max_drift;  ///< relative to the invariant's scale
+};
+
 struct DriftPlan {
   std::string scene;
   double t_end;
@@ -15,6 +21,8 @@ struct DriftPlan {
   std::vector<double> steps;  ///< s; several of them, from "steps" in the file, make a table of large steps
   std::optional<double> tol;
   std::vector<std::string> integrators;
+  std::vector<PublishedDrift> published;  ///< shown below ours
+  std::string source;                     ///< of these
 };
 
 /// Work and precision on a scene whose runs are too long for the default ladders.

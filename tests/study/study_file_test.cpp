@@ -1,9 +1,11 @@
 #include "src/study/study_file.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
 #include "src/error.hpp"
+#include "src/study/published.hpp"
 #include "tests/catch.hpp"
 #include "tests/output/temporary_folder.hpp"
 
@@ -42,6 +44,19 @@ TEST_CASE("study file: what it says is read", "[study]") {
   REQUIRE(beams.drift.size() == 3);
   CHECK(beams.drift[1].steps == std::vector<double>{0.05, 0.1, 0.25, 0.5});
   CHECK(!beams.drift[1].tol);
+  const auto box = std::ranges::find(plan.drift, "tumbling-box", &DriftPlan::scene);
+  REQUIRE(box != plan.drift.end());
+  REQUIRE(box->published.size() == 4);
+  CHECK(box->published[2].name == "Simbody");
+  CHECK(box->published[2].max_drift == 6.7e-4);
+  output::Table drifts;
+  drifts.columns = {{"integrator", "integrator"}, {"setting", "setting"}, {"max_drift", "largest drift"}};
+  add_published(*box, drifts);
+  REQUIRE(drifts.rows.size() == 4);
+  CHECK(drifts.rows[3][0].text == "DART (published)");
+  CHECK(drifts.rows[3][1].raw.empty());
+  CHECK(drifts.rows[3][2].text == "1.90");
+  CHECK(drifts.notes.size() == 1);
   REQUIRE(!plan.vary.empty());
   CHECK(plan.vary[0].variation.key == "body.angular_momentum");
   CHECK(plan.vary[0].variation.values.front() == "[0.0, 2.0, 0.01]");
@@ -85,6 +100,10 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
   for (const char* steps : {"[1]", "[1, -2]", "1"})
     CHECK(refusal(drift + "steps = " + steps + "\n") ==
           std::string("4: drift[0].steps: found ") + steps + ", expected positive numbers (s), at least two");
+  CHECK(refusal(
+            drift +
+            "step = 1\nintegrators = []\npublished = [{name = \"x\", invariant = \"y\", max_drift = 1}]\n") ==
+        "1: drift[0].source: found nothing, expected where it was published");
   CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = -1\n") ==
         "3: speed[0].step: found -1, expected a positive number (s)");
   CHECK(refusal("[[speed]]\nscene = \"a\"\nstep = 1\ntol = 1\n") ==
