@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/output/figure_style.hpp"
 #include "src/study/present.hpp"
 
 namespace gnomon {
@@ -99,6 +100,7 @@ output::Figure refinement_figure(const Refinement& study) {
     panel.series.push_back(std::move(series));
   }
   figure.panels.push_back(std::move(panel));
+  output::settle_styles(figure);
   return figure;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/output/figure_style.hpp"
 #include "src/study/present.hpp"
 
 namespace gnomon {
@@ -161,6 +162,7 @@ output::Figure stability_figure(const Catalogue& catalogue, const Stability& stu
       }
     panel.reference_lines.push_back({study.search.survival.max_drift, "limit"});
     figure.panels.push_back(std::move(panel));
+    output::settle_styles(figure);
     return figure;
   }
   figure.title = fmt::format("{}: largest step that survives", study.name);
@@ -184,6 +186,7 @@ output::Figure stability_figure(const Catalogue& catalogue, const Stability& stu
       series->hollow.push_back(!entry.breaking.breaks);
     }
   figure.panels.push_back(std::move(panel));
+  output::settle_styles(figure);
   return figure;
 }
 
