@@ -45,13 +45,13 @@ TEST_CASE("reference: a solver that does not come to the end leaves no reference
 
 TEST_CASE("reference: steps are halved where no tolerance is to be had, and breaks are met", "[reference]") {
   Catalogue catalogue = full_catalogue();
-  catalogue.reference_solvers = {{"beam-energy-momentum-4", 0.0, 0.0}, {"arkode-dirk", 1e-8, 1e-7}};
+  catalogue.reference_solvers = {{"beam-energy-momentum-4", 0.0, 0.0}, {"arkode-dirk", 1e-7, 1e-6}};
   const auto within_bounds = [&](const Scene& scene, double most) {
     const ReferenceStates certified = scene.model->reference({scene.t_end});
     const ReferenceStates found = solver_reference(catalogue, scene);
     REQUIRE(found.kind == "certified");
     REQUIRE(found.methods.size() == 2);
-    CHECK(found.methods[0].starts_with("arkode-dirk, tolerances 1e-08 and 1e-07"));
+    CHECK(found.methods[0].starts_with("arkode-dirk, tolerances 1e-07 and 1e-06"));
     CHECK(found.methods[1].starts_with("beam-energy-momentum-4, steps "));
     const std::vector<double> error = scene.model->distance(found.states.at(0), certified.states.at(0));
     for (std::size_t k = 0; k < error.size(); ++k) {
@@ -61,11 +61,11 @@ TEST_CASE("reference: steps are halved where no tolerance is to be had, and brea
     }
     return found;
   };
-  within_bounds(load_scene(catalogue, "soft-beam"), 1e-5);
+  within_bounds(load_scene(catalogue, "soft-beam", {0.5, {}}), 1e-4);
   SceneChanges pushed{
       0.5, {"loads=[{at = \"end\", force = [0.3, 0.8], profile = {kind = \"step\", until = 0.3}}]"}};
-  within_bounds(load_scene(catalogue, "soft-beam", pushed), 1e-5);
-  catalogue.reference_solvers.pop_back();  // one alone certifies nothing
+  within_bounds(load_scene(catalogue, "soft-beam", pushed), 1e-4);
+  catalogue.reference_solvers.erase(catalogue.reference_solvers.begin());  // one alone certifies nothing
   CHECK(solver_reference(catalogue, load_scene(catalogue, "soft-beam")).kind.empty());
 }
 

@@ -8,6 +8,7 @@
 #include "src/study/stability_output.hpp"
 #include "tests/catch.hpp"
 #include "tests/example/pendulum.hpp"
+#include "tests/support/scenes.hpp"
 
 using namespace gnomon;
 
@@ -147,7 +148,7 @@ TEST_CASE("vary: several keys take the same values in step", "[study][vary]") {
   const Variation variation = read_variation("--vary", "beam.EA,beam.GA=1e5,2e5");
   CHECK(variation.key == "beam.EA,beam.GA");
   REQUIRE(variation.values.size() == 2);
-  const Catalogue catalogue = full_catalogue();
+  const Catalogue catalogue = test::full_catalogue();
   SceneChanges changes;
   changes.vary = variation.assignment(1);
   const Scene scene = load_scene(catalogue, "soft-beam", changes);
