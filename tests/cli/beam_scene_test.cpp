@@ -89,9 +89,8 @@ TEST_CASE(
       {top + "[baem]\n", "s.toml:4: baem: found an unknown key, expected beam"},
       {whole + "[load]\n", "s.toml:13: load: found an unknown key, expected loads"},
       {whole + "[body]\n",
-       "s.toml:13: body: found an unknown key, expected one of beam, description, initial, loads, model, "
-       "name, "
-       "supports, t_end"},
+       "s.toml:13: body: found an unknown key, expected one of beam, description, execution, initial, "
+       "loads, model, name, supports, t_end"},
       {whole + "width = 1\n",
        "s.toml:13: beam.width: found an unknown key, expected one of length, elements, order, EA, GA, EI, "
        "rhoA, rhoI, start, angle, curvature, gravity, damping, bends, hinges, geometry"},

@@ -9,6 +9,7 @@
 #include "integrators/beam/midpoint.hpp"
 #include "integrators/beam/mixed_midpoint.hpp"
 #include "integrators/beam/stander_stein.hpp"
+#include "integrators/beam/verlet.hpp"
 #include "models/planar_beam/assembled_chain.hpp"
 #include "src/reference_states.hpp"
 #include "tests/planar_beam/beams.hpp"
@@ -284,6 +285,22 @@ TEST_CASE("beam schemes: a free chain keeps energy and momenta as declared", "[p
     CHECK(probes[k].components[3].first == "jump");
     CHECK(std::abs(probes[k].components[3].second) >= 0.05);
   }
+}
+
+TEST_CASE("beam schemes: a stiff spring at a hinge makes explicit steps small", "[planar_beam]") {
+  Data data = free_chain(8);
+  const auto stable = [](const PlanarBeam<1>& model) {
+    const beam::NodalBeamOf<PlanarBeam<1>> nodal(model);
+    return beam::stable_step(nodal, model.initial().u.data(), beam::Mass::consistent);
+  };
+  const double soft = stable(PlanarBeam<1>(data));
+  data.hinges[0].spring = 1e5;
+  const PlanarBeam<1> model(data);
+  const double h = stable(model);
+  CHECK(2.0 * h <= soft);  // the bound of the elements without it would not do
+  CHECK(drifts("beam-verlet-consistent", model, 1000 * h, h).energy <= 1e-2);
+  const RunResult far = run_beam("beam-verlet-consistent", model, 1000 * h, 2.0 * h);
+  if (far.status == Status::ok) CHECK_FALSE(drifts_of(model, far).energy <= 1.0);
 }
 
 TEST_CASE("beam schemes: declared orders with hinges", "[planar_beam]") {
