@@ -34,14 +34,14 @@ TEST_CASE("ensemble: sine and cosine are exact to rounding up to the limit and b
   double sine = 0.0, versine = 0.0, sine_beyond = 0.0, versine_beyond = 0.0;
   const int count = 200'000;
   for (int k = 0; k <= count; ++k) {
-    const double square = ensemble::sinc_limit * k / count;
+    const double square = sinc_limit * k / count;
     const auto found = ensemble::sinc(square);
     const ExactSinc exact = series_sinc(square);
     sine = std::max(sine, relative_error(found.sine, exact.sine));
     versine = std::max(versine, relative_error(found.versine, exact.versine));
   }
   for (int k = 1; k <= 2000; ++k) {
-    const double square = ensemble::sinc_limit + 7.0 * k / 2000;
+    const double square = sinc_limit + 7.0 * k / 2000;
     const auto found = ensemble::sinc(square);
     const ExactSinc exact = series_sinc(square);
     sine_beyond = std::max(sine_beyond, static_cast<double>(std::abs(found.sine - exact.sine)));
