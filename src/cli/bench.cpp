@@ -67,7 +67,8 @@ class Study {
       for (const std::string& file : context.catalogue.study_files)
         plan(read_study(file), fs::path(file).parent_path().filename().string());
     // What one looks at first. Its runs serve the other parts, too.
-    std::ranges::stable_partition(parts_, [](const Part& part) { return part.name.ends_with("-scorecard"); });
+    std::stable_partition(parts_.begin(), parts_.end(),
+                          [](const Part& part) { return part.name.ends_with("-scorecard"); });
   }
 
   /// False if it was interrupted.
