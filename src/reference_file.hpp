@@ -9,7 +9,7 @@
 namespace gnomon {
 
 /// Raised whenever the way references are computed changes.
-inline constexpr int reference_format = 6;
+inline constexpr int reference_format = 7;
 
 /// Where the reference of a scene is kept beside it: "folder/name.reference.txt" of "folder/name.toml". Empty
 /// for a scene that is not as it stands in its file, for other times than its end, and for a closed form.
