@@ -63,8 +63,8 @@ std::optional<ErrorFloor> find_floor(std::vector<OrderPoint> points, const Order
     const bool behind_window = order.observed && points[first].step <= order.step_to;
     if (!behind_window && (y.size() < 6 || fall < 2.0 * (most - least))) continue;
     if (*level <= std::log(2.0 * options.bound)) return std::nullopt;
-    const auto nearest = std::ranges::min_element(y, {}, [&](double e) { return std::abs(e - *level); });
-    const std::size_t typical = first + static_cast<std::size_t>(nearest - y.begin());
+    std::size_t typical = points.size() - 1;
+    while (errors[typical] < *level - std::log(2.0)) --typical;
     return ErrorFloor{std::exp(*level), static_cast<int>(y.size()), points[first].step, points.back().step,
                       points[typical].step};
   }

@@ -13,7 +13,7 @@ struct ErrorFloor {
   int points = 0;             ///< at least 4
   double step_from = 0.0;     ///< largest step of the floor
   double step_to = 0.0;       ///< smallest step
-  double typical_step = 0.0;  ///< whose error is nearest to the level
+  double typical_step = 0.0;  ///< smallest step whose error is at least half the level
 };
 
 /// The floor of roundoff or of a Newton tolerance that the smallest steps show: the longest run of points up

@@ -48,8 +48,10 @@ void tell_floors_apart(Runner& runner, Convergence& study, const StudyOptions& o
       runner.run_each(study.scene, study.reference, plans, tight, [](const RunPlan&) {});
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto& [order, row, metric] = questions[k];
-    if (rows[k].result.status == Status::ok && metric < rows[k].error.size())
-      order->floor_kind = floor_kind_of(row->error[metric], rows[k].error[metric]);
+    if (rows[k].result.status != Status::ok || metric >= rows[k].error.size()) continue;
+    const FloorKind kind = floor_kind_of(row->error[metric], rows[k].error[metric]);
+    // A floor far above roundoff that the tolerance does not move is of another kind.
+    if (kind == FloorKind::newton || order->floor->level < 1e-6) order->floor_kind = kind;
   }
 }
 

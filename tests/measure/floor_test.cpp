@@ -78,6 +78,10 @@ TEST_CASE("measure: floors of known level are found within a factor 3, flat and 
           CHECK(floor->points >= 4);
           CHECK(floor->step_from < 3.0 * knee);
           CHECK(floor->typical_step <= floor->step_from);
+          for (const auto& point : with_floor(curve)) {
+            if (point.step == floor->typical_step) CHECK(point.error >= 0.5 * floor->level);
+            if (point.step < floor->typical_step) CHECK(point.error < 0.5 * floor->level);
+          }
           CHECK(floor->typical_step >= floor->step_to);
         }
   INFO(found << " of " << curves);
