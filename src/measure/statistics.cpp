@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace gnomon {
@@ -18,5 +19,14 @@ double quantile(std::vector<double> values, double q) {
 }
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
+
+double theil_sen_slope(std::span<const double> x, std::span<const double> y) {
+  if (x.size() != y.size()) throw std::invalid_argument("theil_sen_slope: lengths differ");
+  std::vector<double> slopes;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = i + 1; j < x.size(); ++j)
+      if (x[i] != x[j]) slopes.push_back((y[i] - y[j]) / (x[i] - x[j]));
+  return median(std::move(slopes));
+}
 
 }  // namespace gnomon

@@ -30,6 +30,13 @@ struct ReferenceLine {
   std::string label;
 };
 
+/// A thin dotted horizontal line across part of the axis in the colour of a series, such as its floor.
+struct Level {
+  double y = 0.0;
+  Range x;
+  int style = 0;  ///< as of Series
+};
+
 /// A short line of slope `slope` on log-log axes, "order 4", put where there is no data.
 struct Guide {
   double slope = 1.0;
@@ -54,6 +61,7 @@ struct Panel {
   std::vector<ReferenceLine> reference_lines;
   std::vector<Guide> guides;
   std::vector<Failure> failures;
+  std::vector<Level> levels{};
   std::vector<Series> series;
 };
 
@@ -65,6 +73,7 @@ struct Figure {
   std::string caption;         ///< not drawn; the title of the SVG document, which screen readers read
   std::string hollow_note;     ///< what hollow points mean; drawn below the axes if there are any
   std::string failure_note{};  ///< what crosses mean; drawn below the axes if there are any
+  std::string floor_note{};    ///< what levels mean; drawn below the axes if there are any
   std::vector<Panel> panels;
 };
 

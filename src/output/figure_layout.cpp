@@ -179,6 +179,21 @@ std::vector<PlacedLine> add_reference_lines(DrawnPanel& panel, const Panel& data
   return placed;
 }
 
+void add_levels(DrawnPanel& panel, const Panel& data) {
+  for (const Level& level : data.levels) {
+    if (!can_be_drawn(level.y, data.log_y) || !can_be_drawn(level.x.low, data.log_x) ||
+        !can_be_drawn(level.x.high, data.log_x))
+      continue;
+    const double y = panel.y.position(level.y);
+    const double low = std::clamp(panel.x.position(level.x.low), 0.0, 1.0);
+    const double high = std::clamp(panel.x.position(level.x.high), 0.0, 1.0);
+    if (y < 0.0 || y > 1.0 || low >= high) continue;
+    panel.decoration.strokes.push_back({to_pixels(panel, {level.x.low, level.y}),
+                                        to_pixels(panel, {level.x.high, level.y}),
+                                        style_of(level.style).colour, 1.2, "(1,3)"});
+  }
+}
+
 void name_reference_lines(DrawnPanel& panel, const std::vector<PlacedLine>& lines, Occupied& occupied) {
   for (const PlacedLine& line : lines) {
     const double width = text_width(line.label, text_size);
@@ -316,7 +331,10 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
   const bool failed =
       !figure.failure_note.empty() &&
       std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.failures.empty(); });
-  frame.note = noted || failed ? 26.0 : 0.0;
+  const bool levelled =
+      !figure.floor_note.empty() && std::any_of(figure.panels.begin(), figure.panels.end(),
+                                                [](const Panel& panel) { return !panel.levels.empty(); });
+  frame.note = noted || failed || levelled ? 26.0 : 0.0;
   const double title_height = figure.title.empty() ? 0.0 : 30.0;
   const bool several = figure.panels.size() > 1;
   if (several) drawing.width = 1000.0;
@@ -348,6 +366,7 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
     DrawnPanel& panel = drawing.panels[p];
     Occupied occupied = occupied_by_curves(panel, panel.frame);
     add_failures(panel, figure.panels[p], occupied);
+    add_levels(panel, figure.panels[p]);
     if (naming == Naming::beside_frame && !name_beside_frame(panel)) return std::nullopt;
     const auto lines = add_reference_lines(panel, figure.panels[p], occupied);
     if (naming == Naming::at_ends && !name_at_ends(panel, occupied)) return std::nullopt;
@@ -371,6 +390,9 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
   };
   if (noted) note(6, figure.hollow_note);
   if (failed) note(2, figure.failure_note);
+  if (levelled)
+    drawing.decoration.texts.push_back(
+        {{left, 15.0}, Anchor::left, plain_text(figure.floor_note), text_size, grey});
   return drawing;
 }
 

@@ -17,6 +17,44 @@ std::vector<Setting> order_ladder(const Scene& scene, const SchemeInfo& scheme, 
   return settings(scheme, options, step_ladder(scene, options.quick ? 17 : 21, 0.5), default_tols());
 }
 
+// Runs once more, with a hundredth of the Newton tolerance, at a step of each floor whose scheme iterates.
+void tell_floors_apart(Runner& runner, Convergence& study, const StudyOptions& options) {
+  struct Question {
+    OrderRow* order;
+    const Row* row;
+    std::size_t metric;
+  };
+  std::vector<Question> questions;
+  std::vector<RunPlan> plans;
+  const std::vector<MetricInfo> metrics = study.scene.model->metrics();
+  for (OrderRow& order : study.orders) {
+    if (!order.floor) continue;
+    const auto row = std::ranges::find_if(study.rows, [&](const Row& each) {
+      return each.scheme == order.scheme && each.result.step == order.floor->typical_step;
+    });
+    const auto metric = std::ranges::find(metrics, order.metric, &MetricInfo::name);
+    if (row == study.rows.end() || metric == metrics.end()) continue;
+    if (row->result.cost.newton_iterations == 0) {
+      order.floor_kind = FloorKind::roundoff;
+      continue;
+    }
+    questions.push_back({&order, &*row, static_cast<std::size_t>(metric - metrics.begin())});
+    plans.push_back({order.scheme, row->setting});
+  }
+  if (plans.empty()) return;
+  StudyOptions tight = options;
+  tight.scheme.newton_tol *= 0.01;
+  const std::vector<Row> rows =
+      runner.run_each(study.scene, study.reference, plans, tight, [](const RunPlan&) {});
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto& [order, row, metric] = questions[k];
+    if (rows[k].result.status != Status::ok || metric >= rows[k].error.size()) continue;
+    const FloorKind kind = floor_kind_of(row->error[metric], rows[k].error[metric]);
+    // A floor far above roundoff that the tolerance does not move is of another kind.
+    if (kind == FloorKind::newton || order->floor->level < 1e-6) order->floor_kind = kind;
+  }
+}
+
 }  // namespace
 
 OrderRow observed_order(const SceneStudy& study, const SchemeInfo& scheme, std::size_t metric) {
@@ -42,7 +80,11 @@ OrderRow observed_order(const SceneStudy& study, const SchemeInfo& scheme, std::
   options.scale = info.saturation;
   if (!study.reference.bounds.empty()) options.bound = study.reference.bounds.back()[metric];
   return {&scheme, std::string(info.name), observe_order(points, options),
-          scheme.order_for(study.scene.model->load_class(), info.name)};
+          scheme.order_for(study.scene.model->load_class(), info.name), find_floor(points, options)};
+}
+
+FloorKind floor_kind_of(double error, double tightened) {
+  return tightened < 0.2 * error ? FloorKind::newton : FloorKind::roundoff;
 }
 
 std::size_t converge_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
@@ -74,6 +116,7 @@ Convergence converge(Runner& runner, Scene scene, const StudyOptions& options, o
       for (std::size_t metric = 0; metric < study.scene.model->metrics().size(); ++metric)
         study.orders.push_back(observed_order(study, *scheme, metric));
   }
+  if (!study.interrupted) tell_floors_apart(runner, study, options);
   return study;
 }
 

@@ -18,6 +18,18 @@ bool DriftStudy::has_ladder() const {
   return false;
 }
 
+std::optional<DriftScaling> h_scaling(const DriftStudy& study, const SchemeInfo& scheme,
+                                      const std::string& invariant) {
+  std::vector<DriftAtStep> runs;
+  for (const DriftRow& row : study.drifts) {
+    const Row& run = study.rows[row.row];
+    if (run.scheme == &scheme && run.result.status == Status::ok && run.result.step &&
+        row.invariant.info.name == invariant)
+      runs.push_back({*run.result.step, row.drift});
+  }
+  return drift_scaling(runs);
+}
+
 std::size_t drift_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
   std::size_t runs = 0;
   for (const SchemeInfo* scheme : select(catalogue, scene, options))

@@ -1,7 +1,10 @@
 #pragma once
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "src/measure/drift.hpp"
+#include "src/measure/drift_scaling.hpp"
 #include "src/study/study.hpp"
 
 namespace gnomon {
@@ -22,6 +25,10 @@ struct DriftStudy : SceneStudy {
 /// Long runs, their invariants sampled at jittered times so that no period is aliased, the trajectory error
 /// beside them.
 DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
+
+/// How the drift of an invariant falls with the step, over the runs of a scheme that ended well.
+std::optional<DriftScaling> h_scaling(const DriftStudy& study, const SchemeInfo& scheme,
+                                      const std::string& invariant);
 
 std::size_t drift_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options);
 

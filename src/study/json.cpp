@@ -211,6 +211,8 @@ void Document::add_orders(const std::string& scene, const std::vector<OrderRow>&
     for (const DroppedPoint& point : order.dropped)
       json["dropped"].push_back(
           {{"step", point.step}, {"error", finite_or_null(point.error)}, {"reason", point.reason}});
+    json["floor"] = row.floor ? finite_or_null(row.floor->level) : Json(nullptr);
+    json["floor_kind"] = row.floor_kind ? Json(to_string(*row.floor_kind)) : Json(nullptr);
     json_["orders"].push_back(std::move(json));
   }
 }
@@ -218,6 +220,7 @@ void Document::add_orders(const std::string& scene, const std::vector<OrderRow>&
 void Document::add_drifts(const DriftStudy& study) {
   for (const DriftRow& row : study.drifts) {
     const Row& run = study.rows[row.row];
+    const auto scaling = h_scaling(study, *run.scheme, row.invariant.info.name);
     json_["drifts"].push_back(
         {{"scene", study.scene.name},
          {"integrator", run.scheme->name},
@@ -229,7 +232,9 @@ void Document::add_drifts(const DriftStudy& study) {
          {"slope", finite_or_null(row.drift.slope)},
          {"slope_error", finite_or_null(row.drift.slope_error)},
          {"growth", finite_or_null(row.drift.growth)},
-         {"verdict", run.result.status == Status::ok ? to_string(row.drift.verdict) : "failed"}});
+         {"verdict", run.result.status == Status::ok ? to_string(row.drift.verdict) : "failed"},
+         {"h_scaling", scaling ? finite_or_null(scaling->exponent) : Json(nullptr)},
+         {"h_scaling_of", scaling ? Json(scaling->of_slope ? "slope" : "max_drift") : Json(nullptr)}});
   }
 }
 

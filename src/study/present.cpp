@@ -188,17 +188,24 @@ Table orders_table(const Convergence& study) {
                    {"high", "quartile"},
                    {"expected", "declared"},
                    {"points", "points"},
-                   {"verdict", "verdict", Align::left}};
+                   {"verdict", "verdict", Align::left},
+                   {"floor", "floor"},
+                   {"floor_kind", "kind of floor", Align::left}};
   for (const OrderRow& row : study.orders) {
     const ObservedOrder& order = row.order;
     const double none = std::nan("");
-    table.rows.push_back({std::string(row.scheme->name), row.metric,
-                          output::number_cell(order.observed.value_or(none), 3),
-                          output::number_cell(order.observed ? order.interval[0] : none, 3),
-                          output::number_cell(order.observed ? order.interval[1] : none, 3),
-                          output::number_cell(row.expected.value_or(none), 2),
-                          output::count_cell(order.points), order.verdict});
+    table.rows.push_back(
+        {std::string(row.scheme->name), row.metric, output::number_cell(order.observed.value_or(none), 3),
+         output::number_cell(order.observed ? order.interval[0] : none, 3),
+         output::number_cell(order.observed ? order.interval[1] : none, 3),
+         output::number_cell(row.expected.value_or(none), 2), output::count_cell(order.points), order.verdict,
+         output::number_cell(row.floor ? row.floor->level : none, 2),
+         row.floor_kind ? Cell(std::string(to_string(*row.floor_kind))) : Cell{}});
   }
+  if (std::ranges::any_of(study.orders, [](const OrderRow& row) { return row.floor.has_value(); }))
+    table.notes.push_back(
+        "floor: where the error stops falling with the step; Newton: a run with a hundredth of the Newton "
+        "tolerance falls below it");
   table.notes.push_back(reference_line(study));
   return table;
 }
@@ -280,6 +287,8 @@ Table drift_runs_table(const DriftStudy& study) {
   table.columns.insert(
       table.columns.end(),
       {{"status", "status", Align::left}, {"reason", "reason", Align::left}, {"t_s", "time reached [s]"}});
+  for (const InvariantInfo& info : infos)
+    table.columns.push_back({info.name + "_h_scaling", info.name + " h-scaling"});
   for (std::size_t k = 0; k < study.rows.size(); ++k) {
     const RunResult& result = study.rows[k].result;
     std::vector<Cell> cells{std::string(study.rows[k].scheme->name), study.rows[k].setting.text()};
@@ -297,8 +306,15 @@ Table drift_runs_table(const DriftStudy& study) {
     cells.emplace_back(std::string(to_string(result.status)));
     cells.push_back(result.message.empty() ? Cell{} : Cell(result.message));
     cells.push_back(output::number_cell(result.t, 6));
+    for (const InvariantInfo& info : infos) {
+      const auto scaling = h_scaling(study, *study.rows[k].scheme, info.name);
+      cells.push_back(scaling ? output::number_cell(scaling->exponent, 3) : Cell{});
+    }
     table.rows.push_back(std::move(cells));
   }
+  table.notes.push_back(
+      "h-scaling: exponent s of the largest drift (bounded) or its slope (secular) ~ h^s over the scheme's "
+      "steps that ended well");
   table.notes.push_back(
       "largest drift relative to the invariant's scale, at jittered times; of a run that failed, up to the "
       "time "
@@ -322,6 +338,13 @@ output::Figure convergence_figure(const Catalogue& catalogue, const Convergence&
       add(steps, [](const Row& row) { return row.result.step.value_or(std::nan("")); });
     if (scheme->stepping == Stepping::adaptive) add(tols, [](const Row& row) { return *row.setting.tol; });
   }
+  figure.floor_note = "dotted: floor";
+  const MetricInfo shown = study.scene.model->metrics()[0];
+  for (const OrderRow& row : study.orders)
+    if (row.floor && row.metric == shown.name)
+      steps.levels.push_back({row.floor->level,
+                              {row.floor->step_to, row.floor->step_from},
+                              style_of_scheme(catalogue, *row.scheme)});
   std::vector<double> declared;
   for (const OrderRow& row : study.orders)
     if (row.expected && std::find(declared.begin(), declared.end(), *row.expected) == declared.end())

@@ -171,7 +171,7 @@ TEST_CASE("cli: converge reports observed orders in its JSON", "[cli]") {
   for (const Json& order : json["orders"]) {
     INFO(order.dump(1));
     CHECK(keys_of(order) == Keys{"scene", "integrator", "metric", "observed", "interval", "expected",
-                                 "points", "verdict", "dropped"});
+                                 "points", "verdict", "dropped", "floor", "floor_kind"});
     CHECK(order["scene"] == "asymmetric-free-top");
     CHECK((order["metric"] == "orientation" || order["metric"] == "momentum"));
     const double expected = order["integrator"] == "munjiza" ? 2.0 : 4.0;
@@ -182,6 +182,25 @@ TEST_CASE("cli: converge reports observed orders in its JSON", "[cli]") {
     CHECK(std::abs(order["observed"].get<double>() - expected) <= 0.1);
     CHECK(order["points"] >= 4);
     for (const Json& point : order["dropped"]) CHECK(keys_of(point) == Keys{"step", "error", "reason"});
+  }
+}
+
+TEST_CASE("cli: a loose Newton tolerance is a floor of that kind, and a tight one none", "[cli]") {
+  for (const bool loose : {true, false}) {
+    const Json json = json_of({"converge", "soft-beam", "--integrators", "beam-generalized-alpha", "--t-end",
+                               "0.5", "--newton-tol", loose ? "1e-2" : "1e-6", "--no-timing", "--quiet"});
+    REQUIRE(json["orders"].size() == 4);
+    for (const Json& order : json["orders"]) {
+      INFO(order.dump(1));
+      if (loose) {
+        CHECK(order["floor"] >= 1e-6);
+        CHECK(order["floor"] <= 1e-2);
+        CHECK(order["floor_kind"] == "Newton");
+      } else {
+        CHECK(order["floor"].is_null());
+        CHECK(order["floor_kind"].is_null());
+      }
+    }
   }
 }
 
@@ -206,10 +225,28 @@ TEST_CASE("cli: drift reports every invariant of every run in its JSON", "[cli]"
   REQUIRE(json["drifts"].size() == 2 * json["runs"][0]["invariants"].size());
   for (const Json& drift : json["drifts"]) {
     CHECK(keys_of(drift) == Keys{"scene", "integrator", "step", "tol", "invariant", "max_drift",
-                                 "oscillation", "slope", "slope_error", "growth", "verdict"});
+                                 "oscillation", "slope", "slope_error", "growth", "verdict", "h_scaling",
+                                 "h_scaling_of"});
     CHECK(json["runs"][0]["invariants"].contains(drift["invariant"].get<std::string>()));
     CHECK(drift["max_drift"] >= 0.0);
+    CHECK(drift["h_scaling"].is_null());  // one step
+    CHECK(drift["h_scaling_of"].is_null());
   }
+}
+
+TEST_CASE("cli: bounded energy drift of lie-verlet on a heavy top falls as h^2", "[cli]") {
+  const Json json = json_of({"drift", "off-axis-heavy-top", "--integrators", "lie-verlet", "--steps",
+                             "0.02,0.01,0.005", "--t-end", "50", "--quiet", "--no-reference"});
+  int energies = 0;
+  for (const Json& drift : json["drifts"]) {
+    if (drift["invariant"] != "energy") continue;
+    ++energies;
+    INFO(drift.dump(1));
+    CHECK(drift["h_scaling_of"] == "max_drift");
+    REQUIRE(drift["h_scaling"].is_number());
+    CHECK(std::abs(drift["h_scaling"].get<double>() - 2.0) <= 0.1);
+  }
+  CHECK(energies == 3);
 }
 
 TEST_CASE("cli: drift at several steps shows how each run ended", "[cli]") {
