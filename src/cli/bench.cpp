@@ -151,6 +151,7 @@ class Study {
     };
     StudyOptions options;
     options.quick = session_.quick;
+    options.timing = !request_.no_timing;
     options.time_limit = run_limit;
 
     const auto on = [&](const Scene& scene) {
@@ -228,6 +229,7 @@ class Study {
                         [=, this](output::Progress& progress) {
                           return make_survey(model, study.survey, options, progress);
                         }});
+    if (!options.timing) return;
     if (!study.speed.empty())
       parts_.push_back({model + "-speed", "Speed", 1, [=, this](output::Progress& progress) {
                           return make_speed(model, study, progress);
@@ -292,6 +294,7 @@ class Study {
     SceneChanges changes;
     changes.t_end = session_.quick ? *plan.quick_t_end : plan.t_end;
     StudyOptions options;
+    options.timing = !request_.no_timing;
     options.time_limit = run_limit;
     options.integrators = plan.integrators;
     options.steps = plan.steps;

@@ -127,7 +127,7 @@ constexpr Command commands[] = {
      "the reference solution: kind, methods, bounds of its error, state at the end; a certified one is kept "
      "beside its scene",
      &scene, "eaFjcLQ", reference},
-    {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqyJFQ",
+    {"bench", "[--quick] [--out DIR]", "the published study: all tables and figures", nullptr, "oqyMJFQ",
      bench},
     {"report", "DIR", "tables, figures and one HTML page from the measurements of a study; runs nothing",
      &folder, "Q", report},

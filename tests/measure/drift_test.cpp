@@ -184,7 +184,7 @@ TEST_CASE("measure: a random walk of rounding errors is roundoff, with a real tr
     CHECK(drift_of_walk(1e-16, 0.0, seed).verdict == DriftVerdict::roundoff);
 }
 
-TEST_CASE("measure: the standard error of the slope is honest for correlated errors") {
+TEST_CASE("measure: the standard error of the slope is honest for correlated errors", "[long]") {
   const auto spread = [](double step, double memory) {  // of slope / error, 1 if the error is right
     double square = 0.0;
     for (unsigned seed = 1; seed <= 400; ++seed) {

@@ -310,7 +310,7 @@ TEST_CASE("rigid body: distances", "[rigid_body]") {
         4.0 * unit_roundoff);
 }
 
-TEST_CASE("rigid body: invariants are constant along the exact motion of every scene", "[rigid_body]") {
+TEST_CASE("rigid body: invariants are constant along the exact motion of every scene", "[rigid_body][long]") {
   const Catalogue catalogue = full_catalogue();
   int scenes = 0;
   for (const ShippedScene& shipped : shipped_scenes(catalogue)) {

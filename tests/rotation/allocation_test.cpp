@@ -95,7 +95,7 @@ TEST_CASE("schemes: the counters of allocations see what is allocated", "[rotati
   }
 }
 
-TEST_CASE("schemes: steps of equal size allocate nothing", "[rotation][allocation]") {
+TEST_CASE("schemes: steps of equal size allocate nothing", "[rotation][allocation][long]") {
   const Catalogue catalogue = full_catalogue();
   std::vector<std::string_view> names;
   for_each_scheme([&]<class S>(TypeList<S>) { names.push_back(S::info.name); });

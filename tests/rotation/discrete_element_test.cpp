@@ -155,7 +155,7 @@ TEST_CASE("practice: orders with a moment fixed in space", "[rotation][practice]
 TEST_CASE("practice: orders with a moment fixed in the body", "[rotation][practice]") {
   check_practice_orders("body-moment", &PracticeScheme::body_moment, 5.0, 500);
 }
-TEST_CASE("practice: orders with a weight", "[rotation][practice]") {
+TEST_CASE("practice: orders with a weight", "[rotation][practice][long]") {
   check_practice_orders("asymmetric-heavy-top", &PracticeScheme::gravity, 5.0, 1000);
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("practice: the quaternion form of Munjiza's scheme is his scheme", "[r
   }
 }
 
-TEST_CASE("practice: variants in use are of order 1", "[rotation][practice]") {
+TEST_CASE("practice: variants in use are of order 1", "[rotation][practice][long]") {
   const Catalogue catalogue = practice_catalogue();
   const Scene scene = load_scene(catalogue, "asymmetric-heavy-top");
   const auto& body = typed<RigidBody<Gravity>>(scene);

@@ -263,7 +263,7 @@ TEST_CASE("schemes: conservation under gravity", "[rotation][invariants][long]")
   }
 }
 
-TEST_CASE("schemes: the impulse of a moment fixed in space is kept", "[rotation][invariants]") {
+TEST_CASE("schemes: the impulse of a moment fixed in space is kept", "[rotation][invariants][long]") {
   const Catalogue catalogue = full_catalogue();
   for (const char* name : {"space-moment", "rest-then-pushed"}) {
     const Scene scene = load_scene(catalogue, name);

@@ -98,7 +98,7 @@ TEST_CASE("schemes: end state of the spinning cylinder", "[rotation][published]"
   CHECK(largest(orientation(coarse, q).coeffs() - q.coeffs()) >= 1e-9);
 }
 
-TEST_CASE("schemes: end state of the fast heavy top", "[rotation][published]") {
+TEST_CASE("schemes: end state of the fast heavy top", "[rotation][published][long]") {
   // O. Bruls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121; good to
   // six digits.
   const Quaterniond q(0.1229473, -0.4910794, 0.3504308, -0.7879869);
@@ -113,7 +113,7 @@ TEST_CASE("schemes: end state of the fast heavy top", "[rotation][published]") {
   CHECK(distance(certified(body, 2.0001)) >= 1e-5);
 }
 
-TEST_CASE("schemes: energy of the heavy symmetric top", "[rotation][published]") {
+TEST_CASE("schemes: energy of the heavy symmetric top", "[rotation][published][long]") {
   const Catalogue catalogue = full_catalogue();
   const Scene scene = load_scene(catalogue, "heavy-symmetric-top");
   const auto& body = typed<RigidBody<Gravity>>(scene);
@@ -195,7 +195,7 @@ TEST_CASE("schemes: fourth integral of Kovalevskaya's top", "[rotation][publishe
   for (const InvariantInfo& info : other.model->invariant_info()) CHECK(info.name != "kovalevskaya");
 }
 
-TEST_CASE("schemes: axial momentum of Lagrange's top", "[rotation][published]") {
+TEST_CASE("schemes: axial momentum of Lagrange's top", "[rotation][published][long]") {
   const Catalogue catalogue = full_catalogue();
   for (const char* name : {"heavy-symmetric-top", "fast-heavy-top"}) {
     const Scene scene = load_scene(catalogue, name);
