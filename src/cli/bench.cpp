@@ -334,6 +334,7 @@ class Study {
     study.add_to(document);
     StudyOptions named;
     named.quick = options.quick;
+    named.timing = options.timing;
     named.integrators = plan.integrators;
     const std::string name = "vary-" + plan.label;
     publish({name,
@@ -471,6 +472,7 @@ class Study {
   static std::string command(const std::string& arguments, const StudyOptions& options = {}) {
     std::string text = "./gnomon " + arguments;
     if (options.quick) text += " --quick";
+    if (!options.timing) text += " --no-timing";
     if (!options.integrators.empty())
       text += fmt::format(" --integrators {}", fmt::join(options.integrators, ","));
     return text;
@@ -484,7 +486,8 @@ class Study {
 
   void write_index() const {
     std::string text = "# Results\n\nWritten by `./gnomon bench";
-    text += session_.quick ? " --quick`.\n\n" : "`.\n\n";
+    text +=
+        fmt::format("{}{}`.\n\n", session_.quick ? " --quick" : "", request_.no_timing ? " --no-timing" : "");
     for (const auto& [key, value] : session_.environment.items())
       text += fmt::format("- {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
     for (const Part& part : parts_) {
@@ -527,9 +530,9 @@ class Study {
 int bench(Context& context) {
   const Request& request = context.request;
   const std::string results = std::string(GNOMON_SOURCE_DIR) + "/results";
-  const std::string usual = !request.study.empty() ? "gnomon-out"
-                            : request.quick        ? results + "/quick"
-                                                   : results;
+  // The published tables have times.
+  const bool own = !request.study.empty() || (request.no_timing && !request.quick);
+  const std::string usual = own ? "gnomon-out" : request.quick ? results + "/quick" : results;
   const std::string folder = request.out.empty() ? usual : request.out;
   if (!request.study.empty()) read_study(request.study);  // refused before anything is written
   RunStore store(folder, RunStore::Access::append);
@@ -543,7 +546,8 @@ int bench(Context& context) {
         store.path());
     return interrupted;
   }
-  if (fs::weakly_canonical(folder) == fs::weakly_canonical(results)) study.update_readme();
+  if (!request.no_timing && fs::weakly_canonical(folder) == fs::weakly_canonical(results))
+    study.update_readme();
   return done;
 }
 
