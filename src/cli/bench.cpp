@@ -10,11 +10,11 @@
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
 #include "src/cli/session.hpp"
+#include "src/cli/study_folder.hpp"
 #include "src/environment.hpp"
 #include "src/error.hpp"
 #include "src/measure/core.hpp"
 #include "src/output/files.hpp"
-#include "src/output/report_page.hpp"
 #include "src/study/compare.hpp"
 #include "src/study/keeper.hpp"
 #include "src/study/peers.hpp"
@@ -22,7 +22,6 @@
 #include "src/study/published.hpp"
 #include "src/study/scorecard.hpp"
 #include "src/study/speed.hpp"
-#include "src/study/summary.hpp"
 #include "src/study/survey.hpp"
 #include "src/study/vary_study.hpp"
 
@@ -59,7 +58,7 @@ class Study {
                         measure,
                         {0.0, default_memory_limit(), &context.stop},
                         measure ? jobs_of(context.request, bench_jobs()) : 1}),
-        folder_(std::move(folder)) {
+        files_(request_, session_, std::move(folder)) {
     runner_.keep_in(&keeper_);
     if (!session_.study.empty())
       plan(read_study(session_.study), fs::path(session_.study).stem().string());
@@ -99,8 +98,10 @@ class Study {
     progress.finish();
     keeper_.report_to(nullptr);
     parts_ = std::move(made);
-    write_index();
-    write_page();
+    std::vector<StudyFolder::Entry> entries;
+    for (const Part& part : parts_) entries.push_back({part.name, part.heading});
+    files_.write_index(entries);
+    files_.write_page();
     return true;
   }
   const Keeper& keeper() const { return keeper_; }
@@ -109,7 +110,7 @@ class Study {
     const std::string path = std::string(GNOMON_SOURCE_DIR) + "/README.md";
     std::string text = output::read_file(path);
     for (const Part& part : parts_) {
-      const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
+      const std::string content = files_.text(part.name);
       std::string shown = content.substr(0, content.find("**Runs**"));
       if (const std::size_t table = shown.find("**"); table != std::string::npos) shown = shown.substr(table);
       // Of these the first table is enough.
@@ -131,14 +132,11 @@ class Study {
     Keeper reader(store_, {session_.code, session_.machine, false, {}});
     reader.report_to(&counter);
     runner_.keep_in(&reader);
-    counting_ = true;
+    files_.counting = true;
     for (const Part& part : parts_) part.make(counter);
-    counting_ = false;
+    files_.counting = false;
     runner_.keep_in(&keeper_);
-    sections_.clear();
-    scorecards_.clear();
-    counts_ = {};
-    fastest_ = {};
+    files_.clear();
     return counter.made_so_far();
   }
 
@@ -224,11 +222,10 @@ class Study {
                         }});
     }
     if (!study.survey.empty())
-      parts_.push_back({model + "-survey", "All schemes of equal steps",
-                        survey_runs(context_.catalogue, study.survey, session_.quick),
-                        [=, this](output::Progress& progress) {
-                          return make_survey(model, study.survey, options, progress);
-                        }});
+      parts_.push_back(
+          {model + "-survey", "All schemes of equal steps",
+           survey_runs(context_.catalogue, study.survey, session_.quick),
+           [=, this](output::Progress& progress) { return make_survey(model, study, options, progress); }});
     if (!options.timing) return;
     if (!study.speed.empty())
       parts_.push_back({model + "-speed", "Speed", 1, [=, this](output::Progress& progress) {
@@ -243,7 +240,7 @@ class Study {
                    const std::vector<StudyOptions>& options, output::Progress& progress) {
     Document document = new_document();
     std::vector<Convergence> studies;
-    const auto first = static_cast<std::ptrdiff_t>(sections_.size());
+    const std::size_t first = files_.sections();
     for (std::size_t k = 0; k < scenes.size(); ++k) {
       studies.push_back(converge(runner_, scenes[k], options[k], progress));
       if (studies.back().interrupted) return false;
@@ -252,19 +249,19 @@ class Study {
       Document own = new_document();
       own.add(studies.back());
       own.add_orders(studies.back().scene.name, studies.back().orders);
-      publish({"converge-" + scenes[k].name,
-               "Convergence: " + scenes[k].name,
-               command("converge " + scenes[k].name, options[k]),
-               {orders_table(studies.back()), runs_table(studies.back(), "Runs")},
-               convergence_figure(context_.catalogue, studies.back()),
-               {}},
-              own);
-      counts_.add("converge-" + scenes[k].name, studies.back());
+      files_.publish({"converge-" + scenes[k].name,
+                      "Convergence: " + scenes[k].name,
+                      command("converge " + scenes[k].name, options[k]),
+                      {orders_table(studies.back()), runs_table(studies.back(), "Runs")},
+                      convergence_figure(context_.catalogue, studies.back()),
+                      {}},
+                     own);
+      files_.counts.add("converge-" + scenes[k].name, studies.back());
     }
-    publish({model + "-orders", "Order of convergence: " + model, "", {order_matrix(studies)}, {}, {}},
-            document);
+    files_.publish({model + "-orders", "Order of convergence: " + model, "", {order_matrix(studies)}, {}, {}},
+                   document);
     // It stands before the scenes that it sums up.
-    std::rotate(sections_.begin() + first, sections_.end() - 1, sections_.end());
+    files_.lead_with_last(first);
     return true;
   }
 
@@ -278,15 +275,15 @@ class Study {
     std::string arguments = "compare " + scene.name;
     if (!options.steps.empty()) arguments += fmt::format(" --steps {:g}", fmt::join(options.steps, ","));
     if (!options.tols.empty()) arguments += fmt::format(" --tols {:g}", fmt::join(options.tols, ","));
-    publish({"compare-" + scene.name,
-             "Work and precision: " + scene.name,
-             command(arguments, options),
-             {costs, comparison_table(study, "Runs")},
-             work_precision_figure(context_.catalogue, study),
-             {}},
-            document);
-    counts_.add("compare-" + scene.name, study);
-    fastest_.add(study);
+    files_.publish({"compare-" + scene.name,
+                    "Work and precision: " + scene.name,
+                    command(arguments, options),
+                    {costs, comparison_table(study, "Runs")},
+                    work_precision_figure(context_.catalogue, study),
+                    {}},
+                   document);
+    files_.counts.add("compare-" + scene.name, study);
+    files_.fastest.add(study);
     return true;
   }
 
@@ -316,14 +313,14 @@ class Study {
     if (plan.tol) arguments += fmt::format(" --tol {:g}", *plan.tol);
     if (ladder) arguments += " --no-reference";
     const std::string name = (ladder ? "steps-" : "drift-") + plan.scene;
-    publish({name,
-             (ladder ? "Large steps: " : "Drift: ") + plan.scene,
-             command(arguments, options),
-             tables,
-             drift_figure(context_.catalogue, study, "energy"),
-             {}},
-            document);
-    if (!ladder) counts_.add(name, study);
+    files_.publish({name,
+                    (ladder ? "Large steps: " : "Drift: ") + plan.scene,
+                    command(arguments, options),
+                    tables,
+                    drift_figure(context_.catalogue, study, "energy"),
+                    {}},
+                   document);
+    if (!ladder) files_.counts.add(name, study);
     return true;
   }
 
@@ -337,14 +334,14 @@ class Study {
     named.timing = options.timing;
     named.integrators = plan.integrators;
     const std::string name = "vary-" + plan.label;
-    publish({name,
-             "Over one parameter: " + plan.label,
-             command(vary_command(plan), named),
-             study.tables(),
-             study.figure(context_.catalogue),
-             {}},
-            document);
-    for (const Comparison& each : study.comparisons) counts_.add(name, each);
+    files_.publish({name,
+                    "Over one parameter: " + plan.label,
+                    command(vary_command(plan), named),
+                    study.tables(),
+                    study.figure(context_.catalogue),
+                    {}},
+                   document);
+    for (const Comparison& each : study.comparisons) files_.counts.add(name, each);
     return true;
   }
 
@@ -364,42 +361,41 @@ class Study {
       names += " " + scenes[k].name;
       output::Table table = scorecard_table(card);
       table.notes.push_back(sundials_line(context_.catalogue));
-      publish({"scorecard-" + scenes[k].name,
-               "Scorecard: " + scenes[k].name,
-               command("scorecard " + scenes[k].name, options[k]),
-               {table},
-               {},
-               {}},
-              own);
+      files_.publish({"scorecard-" + scenes[k].name,
+                      "Scorecard: " + scenes[k].name,
+                      command("scorecard " + scenes[k].name, options[k]),
+                      {table},
+                      {},
+                      {}},
+                     own);
     }
-    const output::Table joint = joint_scorecard_table("Scorecard, " + model, cards);
-    publish({model + "-scorecard",
-             "Scorecard: " + model,
-             command("scorecard" + names, options.front()),
-             {joint},
-             {},
-             {}},
-            document);
+    output::Table joint = joint_scorecard_table("Scorecard, " + model, cards);
+    files_.publish({model + "-scorecard",
+                    "Scorecard: " + model,
+                    command("scorecard" + names, options.front()),
+                    {joint},
+                    {},
+                    {}},
+                   document);
     // On the page it is the first of all.
-    sections_.pop_back();
-    scorecards_.push_back(joint);
-    scorecards_.back().notes.push_back("made by " + command("scorecard" + names, options.front()));
+    joint.notes.push_back("made by " + command("scorecard" + names, options.front()));
+    files_.summarise_last(std::move(joint));
     return true;
   }
 
-  bool make_survey(const std::string& model, const std::vector<SurveyPlan>& plans,
-                   const StudyOptions& options, output::Progress& progress) {
-    const Survey study = gnomon::survey(runner_, model, plans, options, progress);
+  bool make_survey(const std::string& model, const StudyPlan& plan, const StudyOptions& options,
+                   output::Progress& progress) {
+    const Survey study = gnomon::survey(runner_, model, plan.survey, options, progress);
     if (study.interrupted) return false;
     Document document = new_document();
     document.json()["survey"] = survey_json(study);
-    publish({model + "-survey",
-             "All schemes of equal steps: " + model,
-             command("survey " + model, options),
-             {survey_cost_table(study), survey_stability_table(study)},
-             {},
-             {}},
-            document);
+    files_.publish({model + "-survey",
+                    "All schemes of equal steps: " + model,
+                    command("survey " + model, options),
+                    {survey_cost_table(study), survey_stability_table(study)},
+                    {},
+                    {}},
+                   document);
     return true;
   }
 
@@ -415,7 +411,7 @@ class Study {
       tables.back().notes.push_back(sundials_line(context_.catalogue));
     }
     for (output::Table& table : parts_tables(study)) tables.push_back(std::move(table));
-    publish({model + "-speed", "Speed: " + model, "", tables, {}, {}}, document);
+    files_.publish({model + "-speed", "Speed: " + model, "", tables, {}, {}}, document);
     return true;
   }
 
@@ -425,48 +421,14 @@ class Study {
     if (runner_.stopped()) return false;
     Document document = new_document();
     document.json()["peers"] = peers_json(study);
-    publish({"peers-" + plan.scene,
-             "Against other libraries: " + plan.scene,
-             "",
-             {peers_table(study), peer_runs_table(study)},
-             {},
-             {}},
-            document);
+    files_.publish({"peers-" + plan.scene,
+                    "Against other libraries: " + plan.scene,
+                    "",
+                    {peers_table(study), peer_runs_table(study)},
+                    {},
+                    {}},
+                   document);
     return true;
-  }
-
-  /// Writes the files of a part and keeps it for the page.
-  void publish(output::ReportSection section, const Document& document) {
-    if (counting_) {
-      sections_.push_back(std::move(section));
-      return;
-    }
-    write_study(folder_, section.id, section.tables, document, section.figure,
-                section.command.empty() ? "" : fmt::format("`{}`\n\n", section.command));
-    const std::string drawn = fmt::format("{}/{}.svg", folder_, section.id);
-    if (section.figure && fs::exists(drawn)) section.svg = output::read_file(drawn);
-    sections_.push_back(std::move(section));
-  }
-
-  void write_page() const {
-    output::ReportPage page;
-    page.title = session_.quick ? "gnomon: quick study" : "gnomon: study";
-    for (const auto& [name, value] : session_.environment.items()) page.facts.emplace_back(name, fact(value));
-    page.summary = scorecards_;
-    if (!fastest_.empty()) page.summary.push_back(fastest_.table());
-    page.summary.push_back(counts_.table());
-    page.sections = sections_;
-    output::write_file_atomically(folder_ + "/report.html",
-                                  output::report_html(page, output::chart_library()));
-  }
-
-  static std::string fact(const nlohmann::ordered_json& value) {
-    if (value.is_string()) return value;
-    if (!value.is_object()) return value.dump();
-    std::string text;
-    for (const auto& [name, each] : value.items())
-      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name, fact(each));
-    return text;
   }
 
   static std::string command(const std::string& arguments, const StudyOptions& options = {}) {
@@ -484,31 +446,6 @@ class Study {
     return document;
   }
 
-  void write_index() const {
-    std::string text = "# Results\n\nWritten by `./gnomon bench";
-    text +=
-        fmt::format("{}{}`.\n\n", session_.quick ? " --quick" : "", request_.no_timing ? " --no-timing" : "");
-    for (const auto& [key, value] : session_.environment.items())
-      text += fmt::format("- {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-    for (const Part& part : parts_) {
-      text += fmt::format("\n## {}\n\n", part.heading);
-      const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
-      // The table of runs is in the part's own page.
-      text += content.substr(0, content.find("**Runs**"));
-      text +=
-          fmt::format("\nAll of it: [{0}.md]({0}.md), [{0}.csv]({0}.csv), [{0}.json]({0}.json)\n", part.name);
-    }
-    output::write_file_atomically(folder_ + "/README.md", text);
-    for (const Part& part : parts_)
-      if (part.name.ends_with("-scorecard") || part.name.ends_with("-orders") ||
-          part.name.ends_with("-speed") || part.name.starts_with("peers-")) {
-        const std::string content = output::read_file(fmt::format("{}/{}.md", folder_, part.name));
-        say(request_, content.substr(0, content.find("**Runs**")));
-      }
-    say(request_, fmt::format("wrote {0} parts to {1}; start with {1}/report.html or {1}/README.md",
-                              parts_.size(), folder_));
-  }
-
   Context& context_;
   const Request& request_;
   RunStore& store_;
@@ -516,13 +453,8 @@ class Study {
   ReferenceStore references_;
   Runner runner_;
   Keeper keeper_;
-  std::string folder_;
   std::vector<Part> parts_;
-  std::vector<output::ReportSection> sections_;
-  RunCounts counts_;
-  Fastest fastest_;
-  std::vector<output::Table> scorecards_;
-  bool counting_ = false;  ///< only what has to be made is counted: nothing is written or kept
+  StudyFolder files_;
 };
 
 }  // namespace
