@@ -3,7 +3,7 @@
 
 namespace gnomon::ensemble {
 
-/// The numbers of a body. Each is an array over all bodies.
+/// The numbers of a body. Each is an array over the bodies of a block.
 enum Field : std::size_t {
   attitude = 0,          ///< A (body -> space) row by row, 9 fields
   momentum = 9,          ///< y = A^T H, the angular momentum in the body triad [kg m^2/s], 3 fields
@@ -15,12 +15,19 @@ enum Field : std::size_t {
 /// The number of bodies comes in multiples of this, whatever the instruction set, so that no set of lanes is
 /// broken and no two threads write to one cache line.
 inline constexpr std::size_t block = 16;
+inline constexpr std::size_t block_values = field_count * block;
 
-/// Some of the bodies of a structure of arrays: field f of body i is values[f * stride + i]. `values` is
-/// aligned to 64 bytes; stride, begin and end are multiples of the block.
+/// Where the number of a body is: the fields of a block of bodies one after the other, then the next block.
+/// A sweep over the bodies so reads memory from its beginning to its end. With one array of all bodies a
+/// field, the 18 arrays compete for places in the cache, and where their pages lie decides the speed.
+constexpr std::size_t place(std::size_t field, std::size_t body) {
+  return body / block * block_values + field * block + body % block;
+}
+
+/// Some of the bodies of a structure of arrays. `values` is aligned to 64 bytes; begin and end are multiples
+/// of the block.
 struct Range {
   double* values;
-  std::size_t stride;
   std::size_t begin, end;
 };
 

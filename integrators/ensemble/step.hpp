@@ -11,21 +11,21 @@ namespace {
 /// Field f and the two after it, of the bodies from i on.
 template <class Real>
 Vector<Real> load_vector(const Range& range, std::size_t f, std::size_t i) {
-  const double* from = range.values + f * range.stride + i;
+  const double* from = range.values + place(f, i);
   if constexpr (std::is_same_v<Real, double>)
-    return {from[0], from[range.stride], from[2 * range.stride]};
+    return {from[0], from[block], from[2 * block]};
   else
-    return {Real::load(from), Real::load(from + range.stride), Real::load(from + 2 * range.stride)};
+    return {Real::load(from), Real::load(from + block), Real::load(from + 2 * block)};
 }
 template <class Real>
 void store_vector(const Vector<Real>& vector, const Range& range, std::size_t f, std::size_t i) {
-  double* to = range.values + f * range.stride + i;
+  double* to = range.values + place(f, i);
   if constexpr (std::is_same_v<Real, double>) {
-    to[0] = vector.x, to[range.stride] = vector.y, to[2 * range.stride] = vector.z;
+    to[0] = vector.x, to[block] = vector.y, to[2 * block] = vector.z;
   } else {
     vector.x.store(to);
-    vector.y.store(to + range.stride);
-    vector.z.store(to + 2 * range.stride);
+    vector.y.store(to + block);
+    vector.z.store(to + 2 * block);
   }
 }
 
@@ -138,7 +138,7 @@ template <Scheme scheme, Load load_kind>
 [[gnu::flatten]] void step_range(const Range& range, double h) {
   for (std::size_t i = range.begin; i < range.end; i += Lanes::size)
     if (!step<scheme, load_kind, Lanes>(range, i, h)) [[unlikely]]
-      step_singly<scheme, load_kind>({range.values, range.stride, i, i + Lanes::size}, h);
+      step_singly<scheme, load_kind>({range.values, i, i + Lanes::size}, h);
 }
 
 template <Scheme scheme>

@@ -19,6 +19,7 @@ Session session_here(const Context& context) {
   session.code = hash_text(output::read_file("/proc/self/exe"));
   session.machine = session.environment.at("cpu");
   session.quick = request.quick;
+  session.timed = !request.no_timing;
   if (!request.study.empty()) session.study = std::filesystem::absolute(request.study).string();
   return session;
 }
@@ -33,6 +34,7 @@ Session session_of(const RunStore& store) {
     session.code = record->at("code");
     session.machine = session.environment.at("cpu");
     session.quick = record->at("quick");
+    session.timed = record->value("timed", true);
     session.study = record->at("study");
     return session;
   } catch (const nlohmann::json::exception&) {
@@ -54,6 +56,7 @@ void begin_session(RunStore& store, const Session& session, bool fresh) {
                 {"kind", "session"},
                 {"code", session.code},
                 {"quick", session.quick},
+                {"timed", session.timed},
                 {"study", session.study},
                 {"environment", session.environment}});
 }

@@ -11,7 +11,7 @@ namespace gnomon::cli {
 struct Session {
   std::string code;     ///< hash of the program
   std::string machine;  ///< its processor
-  bool quick = false;
+  bool quick = false, timed = true;
   std::string study;  ///< a file of the user's; empty: the published study
   nlohmann::ordered_json environment;
 };

@@ -67,8 +67,7 @@ void StudyFolder::write_page() const {
 
 void StudyFolder::write_index(const std::vector<Entry>& parts) const {
   std::string text = "# Results\n\nWritten by `./gnomon bench";
-  text +=
-      fmt::format("{}{}`.\n\n", session_.quick ? " --quick" : "", request_.no_timing ? " --no-timing" : "");
+  text += fmt::format("{}{}`.\n\n", session_.quick ? " --quick" : "", session_.timed ? "" : " --no-timing");
   for (const auto& [key, value] : session_.environment.items())
     text += fmt::format("- {}: {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
   for (const Entry& part : parts) {

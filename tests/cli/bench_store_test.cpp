@@ -44,6 +44,11 @@ struct StudyFolder {
     for (std::string line; std::getline(text, line);) list.push_back(line);
     return list;
   }
+  std::map<std::string, std::string> files(const Words& names) const {
+    std::map<std::string, std::string> contents;
+    for (const std::string& name : names) contents[name] = file(name);
+    return contents;
+  }
   /// Keys of the runs, sorted.
   Words keys() const {
     Words all;
@@ -57,6 +62,23 @@ struct StudyFolder {
 };
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+/// Nothing but the store is left; the report makes the same files again and leaves the store alone.
+void check_report(const StudyFolder& study, const Words& names) {
+  const auto before = study.files(names);
+  for (const fs::directory_entry& each : fs::directory_iterator(study.out))
+    if (each.path().filename() != "runs.jsonl") fs::remove(each.path());
+  const std::string store = study.file("runs.jsonl");
+  const Outcome report = run_program({"report", "out"}, study.folder.path());
+  INFO(report.err);
+  CHECK(report.exit_code == 0);
+  CHECK(report.err.empty());
+  CHECK(study.file("runs.jsonl") == store);
+  for (const std::string& name : names) {
+    INFO(name);
+    CHECK(study.file(name) == before.at(name));
+  }
+}
 
 const Words table_files{"converge-asymmetric-free-top.md",
                         "converge-asymmetric-free-top.csv",
@@ -81,21 +103,8 @@ TEST_CASE("bench: a study of one's own is measured once, and reported from the s
   for (const std::string& name : table_files) CHECK(fs::exists(study.out / name));
   for (const std::string& line : study.lines()) CHECK(Json::accept(line));
 
-  // Nothing but the store is left; the report makes the same files again.
-  std::map<std::string, std::string> before;
-  for (const std::string& name : table_files) before[name] = study.file(name);
-  for (const fs::directory_entry& each : fs::directory_iterator(study.out))
-    if (each.path().filename() != "runs.jsonl") fs::remove(each.path());
   const std::string store = study.file("runs.jsonl");
-  const Outcome report = run_program({"report", "out"}, study.folder.path());
-  INFO(report.err);
-  CHECK(report.exit_code == 0);
-  CHECK(report.err.empty());
-  CHECK(study.file("runs.jsonl") == store);
-  for (const std::string& name : table_files) {
-    INFO(name);
-    CHECK(study.file(name) == before[name]);
-  }
+  check_report(study, table_files);
 
   // A second call measures nothing; --fresh measures all.
   const Outcome second = study.bench();
@@ -121,8 +130,7 @@ TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][s
   Words files{"report.html", "README.md"};
   for (const char* stem : {"mine-scorecard", "scorecard-asymmetric-free-top", "scorecard-space-moment"})
     for (const char* ending : {".md", ".csv", ".tex", ".json"}) files.push_back(std::string(stem) + ending);
-  std::map<std::string, std::string> before;
-  for (const std::string& name : files) before[name] = study.file(name);
+  auto before = study.files(files);
   CHECK(says(before["mine-scorecard.md"], "| munjiza "));
   const Json json = Json::parse(before["mine-scorecard.json"]);
   CHECK(json["scorecard"].size() == 4);
@@ -132,22 +140,24 @@ TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][s
   CHECK(says(page, "<table class=\"sortable\">"));
   CHECK(before["README.md"].find("## Scorecard") < before["README.md"].find("## Order of convergence"));
 
-  for (const std::string& name : files) fs::remove(study.out / name);
-  const std::string store = study.file("runs.jsonl");
-  const Outcome report = run_program({"report", "out"}, study.folder.path());
-  INFO(report.err);
-  CHECK(report.exit_code == 0);
-  CHECK(report.err.empty());
-  CHECK(study.file("runs.jsonl") == store);
-  for (const std::string& name : files) {
-    INFO(name);
-    CHECK(study.file(name) == before[name]);
-  }
+  check_report(study, files);
   // Nothing is measured twice, whatever the number of runs at a time.
   const Words keys = study.keys();
   const Outcome again = study.bench({"--jobs", "1"});
   CHECK(again.exit_code == 0);
   CHECK(study.keys() == keys);
+}
+
+TEST_CASE("bench: a study without times is reported without them", "[cli][store]") {
+  const StudyFolder study(
+      "quick_compare = [\"asymmetric-free-top\"]\nintegrators = [\"munjiza\"]\n"
+      "[[speed]]\nscene = \"asymmetric-free-top\"\nstep = 0.01\nsteps = 10\n");
+  const Outcome first = study.bench({"--no-timing"});
+  INFO(first.err);
+  REQUIRE(first.exit_code == 0);
+  CHECK_FALSE(fs::exists(study.out / "mine-speed.md"));
+  CHECK(says(study.file("README.md"), "--no-timing"));
+  check_report(study, {"compare-asymmetric-free-top.md", "report.html", "README.md"});
 }
 
 TEST_CASE("bench: a study killed again and again is finished by the next calls", "[cli][store]") {
