@@ -6,6 +6,7 @@
 
 #include "integrators/sundials/schemes.hpp"
 #include "integrators/sundials/session.hpp"
+#include "integrators/sundials/tables.hpp"
 
 namespace gnomon::sundials {
 namespace {
@@ -26,7 +27,9 @@ class Arkode final : public Session {
     check(arkode_set_tolerances(erk_)(memory_, rtol_, atol_.get()), "ARKodeSVtolerances");
     check(arkode_set_max_hnil(erk_)(memory_, -1), "ARKodeSetMaxHnilWarns");
     if (erk_) {
-      check(ERKStepSetTableNum(memory_, static_cast<ARKODE_ERKTableID>(table)), "ERKStepSetTableNum");
+      const Table explicit_one = explicit_table(static_cast<ARKODE_ERKTableID>(table));
+      if (!explicit_one) throw std::runtime_error("ARKODE has no explicit table of that number");
+      check(ERKStepSetTable(memory_, explicit_one.get()), "ERKStepSetTable");
     } else {
       check(ARKStepSetTableNum(memory_, static_cast<ARKODE_DIRKTableID>(table), ARKODE_ERK_NONE),
             "ARKStepSetTableNum");
