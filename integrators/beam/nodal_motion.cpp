@@ -13,7 +13,7 @@ NodalMotion::NodalMotion(std::unique_ptr<NodalBeam> nodal, Vector displacements,
       damping_(beam->damping()),
       tolerance_(options.newton_tol),
       kept_while_(options.modified_newton ? 0.2 : 1e-2) {
-  for (Vector* vector : {&a, &internal, &residual_, &correction_, &trial_, &guess_, &inertia_})
+  for (Vector* vector : {&a, &internal, &residual_, &correction_, &trial_, &next_, &guess_, &inertia_})
     vector->setZero(beam->unknowns());
   breaks_ = beam->breaks();
   breaks_.insert(breaks_.begin(), 0.0);
@@ -145,6 +145,19 @@ bool NodalMotion::solve(const Stage& stage, Vector& start_u, Vector& start_v, co
   return true;
 }
 
+bool NodalMotion::leads_on(double factor) {
+  next_ = -residual_;
+  beam->solve(next_.data());
+  // Rotations count times the length of the beam.
+  const auto square = [&](const Vector& x) {
+    double sum = 0.0;
+    for (int i = 0; i < x.size(); ++i)
+      sum += (i % 3 == 2 ? beam->length() * beam->length() : 1.0) * x[i] * x[i];
+    return sum;
+  };
+  return square(next_) <= factor * factor * square(correction_);
+}
+
 bool NodalMotion::newton(const Stage& stage, const Vector& start_u, const Vector& start_v,
                          const Vector& known, Vector& at_u, Vector& at_a, Vector& force) {
   const double t = before(stage.t, stage.h);
@@ -159,7 +172,7 @@ bool NodalMotion::newton(const Stage& stage, const Vector& start_u, const Vector
   bool keep = false, fresh = false;
   for (int k = 0; k < 40; ++k) {
     if (!std::isfinite(size)) return false;
-    if (size <= std::max(tolerance_ * scale_, floor)) return true;
+    if (k > 0 && size <= std::max(tolerance_ * scale_, floor)) return true;
     if (!keep) {
       beam->factorise(stage.mass + stage.force * damping_ * stage.rate, stage.force * stage.kappa, t,
                       at_u.data());
@@ -172,14 +185,17 @@ bool NodalMotion::newton(const Stage& stage, const Vector& start_u, const Vector
     beam->solve(correction_.data());
     ++iterations;
     double length = 1.0;
+    bool leading = false;
     for (;; length *= 0.5) {
       at_a = trial_ + length * correction_;
       size = evaluate();
       if (size <= (1.0 - 1e-4 * length) * before || size <= floor) break;
+      leading = std::isfinite(size) && leads_on(1.0 - 0.5 * length);
+      if (leading) break;
       if (length < 1e-3) return false;
       if (!fresh) break;
     }
-    if (!(size <= before) && !fresh) {  // the old tangent does not serve any more
+    if (!(size <= before) && !fresh && !leading) {  // the old tangent does not serve any more
       at_a = trial_;
       size = evaluate();
       keep = false;

@@ -66,13 +66,15 @@ class NodalMotion {
   void evaluate_force(double t, const Vector& at_u, Vector& force);
   double residual(const Stage& stage, const Vector& start_v, const Vector& known, const Vector& at_a,
                   const Vector& force);
+  /// As in Stepper: whether the next correction with the same tangent is smaller than the last by `factor`.
+  bool leads_on(double factor);
   bool newton(const Stage& stage, const Vector& start_u, const Vector& start_v, const Vector& known,
               Vector& at_u, Vector& at_a, Vector& force);
   void clear_held(Vector& values) const;
 
   std::vector<double> breaks_;  ///< of the data; the first is 0
   std::vector<Driven> driven_;
-  Vector residual_, correction_, trial_, guess_, inertia_;
+  Vector residual_, correction_, trial_, next_, guess_, inertia_;
   bool started_ = false;
   double damping_, tolerance_, kept_while_, floor_, element_length_, scale_ = 0.0;
 };

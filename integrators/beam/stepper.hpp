@@ -63,7 +63,7 @@ class Stepper {
         tolerance_(options.newton_tol),
         kept_while_(options.modified_newton ? 0.2 : 1e-2) {
     const int n = model.unknowns();
-    for (Vector* vector : {&external_, &internal_, &inertia_, &residual_, &correction_, &trial_})
+    for (Vector* vector : {&external_, &internal_, &inertia_, &residual_, &correction_, &trial_, &next_})
       vector->setZero(n);
     for (Vector& one : past) one.setZero(n);
     for (int e = 0; e < model.elements(); ++e)
@@ -208,9 +208,18 @@ class Stepper {
   /// nothing.
   void extrapolate(double h);
 
-  /// Newton's iteration with line search. The tangent is kept while it reduces the residual by a hundred, in
-  /// the modified iteration by five.
+  /// Newton's iteration with line search: a step is taken if it makes the residual or the correction that
+  /// would follow with the same tangent smaller (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
+  /// natural monotonicity test (3.22)). In stiff beams the stretch of second order that bending gives makes
+  /// the residual larger on the way to the solution. The tangent is kept while it reduces the residual by a
+  /// hundred, in the modified iteration by five. At least one correction is made: loads below the roundoff
+  /// of the stiff directions move the soft ones.
   bool solve(const M& model, double h);
+  /// Whether the correction that the residual at hand asks for, with the tangent that was factorised last, is
+  /// smaller than the last one by `factor`.
+  bool leads_on(double factor);
+  /// Rotations count times the length of the beam.
+  double size_of(const Vector& velocities) const;
 
   /// One more correction by the tangent at hand, unless the residual is far below what is asked or at
   /// roundoff: what is left of it is lost from the invariants in each step.
@@ -224,7 +233,7 @@ class Stepper {
   std::optional<planar_beam::AssembledChain> assembled_;  ///< where another solver is asked for
   std::vector<Point> points_;
   std::vector<Driven> driven_;
-  Vector external_, internal_, inertia_, residual_, correction_, trial_;
+  Vector external_, internal_, inertia_, residual_, correction_, trial_, next_;
   double time_ = 0.0, middle_ = 0.0;
   bool extrapolated_ = false;
   int plain_ = 0;  ///< steps for which Newton starts from the last mean velocity

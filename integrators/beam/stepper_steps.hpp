@@ -252,7 +252,7 @@ bool Stepper<M, turning>::solve(const M& model, double h) {
   bool fresh = false, keep = false;
   for (int k = 0; k < 40; ++k) {
     if (!std::isfinite(size)) return false;
-    if (size <= floor() || (k > 0 && size <= threshold())) return polish(model, h, size);
+    if (k > 0 && size <= threshold()) return polish(model, h, size);
     if (!keep) {
       linearise(model, h);
       fresh = true;
@@ -261,14 +261,17 @@ bool Stepper<M, turning>::solve(const M& model, double h) {
     trial_ = mean;
     correct();
     double length = 1.0;
+    bool leading = false;
     for (;; length *= 0.5) {
       mean = trial_ + length * correction_;
       size = evaluate(model, h);
       if (size <= (1.0 - 1e-4 * length) * before || size <= floor()) break;
+      leading = std::isfinite(size) && leads_on(1.0 - 0.5 * length);
+      if (leading) break;
       if (length < 1e-3) return false;
       if (!fresh) break;
     }
-    if (size > before && !fresh) {  // the old tangent does not serve any more
+    if (size > before && !fresh && !leading) {  // the old tangent does not serve any more
       mean = trial_;
       size = evaluate(model, h);
       keep = false;
@@ -281,12 +284,32 @@ bool Stepper<M, turning>::solve(const M& model, double h) {
 }
 
 template <BeamForm M, Turning turning>
+double Stepper<M, turning>::size_of(const Vector& velocities) const {
+  double sum = 0.0;
+  for (int i = 0; i < velocities.size(); ++i) {
+    const double x = i % 3 == 2 ? length_ * velocities[i] : velocities[i];
+    sum += x * x;
+  }
+  return std::sqrt(sum);
+}
+
+template <BeamForm M, Turning turning>
+bool Stepper<M, turning>::leads_on(double factor) {
+  next_ = -residual_;
+  if (assembled_)
+    assembled_->solve(next_.data());
+  else
+    chain_.solve(next_.data());
+  return size_of(next_) <= factor * size_of(correction_);
+}
+
+template <BeamForm M, Turning turning>
 bool Stepper<M, turning>::polish(const M& model, double h, double size) {
-  if (size <= std::max(1e-2 * tolerance_ * scale_, floor())) return true;
+  if (size <= 1e-2 * std::max(tolerance_ * scale_, floor())) return true;
   trial_ = mean;
   correct();
   mean += correction_;
-  if (evaluate(model, h) <= size) return true;
+  if (evaluate(model, h) <= std::max(size, floor())) return true;
   mean = trial_;
   evaluate(model, h);
   return true;

@@ -96,7 +96,7 @@ bool Chain::step(bool cayley, double h, const double* external, const double (&i
     --constant_;
     start = Start::constant;
   }
-  StepInput input{h, start, trusted_ == 0, {}, contraction_};
+  StepInput input{h, start, trusted_ == 0, {}, curvature_};
   for (int end = 0; end < 2; ++end)
     for (int k = 0; k < 3; ++k) input.imposed[end][k] = imposed[end][k];
   // The mean velocity takes the place of the oldest one.
@@ -107,10 +107,10 @@ bool Chain::step(bool cayley, double h, const double* external, const double (&i
   iterations += result.iterations;
   if (!result.solved) {
     known_ = std::min(known_, 2);
-    contraction_ = -1.0;
+    curvature_ = -1.0;
     return false;
   }
-  contraction_ = result.contraction;
+  curvature_ = result.curvature;
   trusted_ = trusted_ > 0 ? trusted_ - 1 : 0;
   if (result.constant_better) constant_ = patience;
   if (result.constant_worse) trusted_ = patience;

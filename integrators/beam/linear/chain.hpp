@@ -57,7 +57,7 @@ class Chain {
   std::vector<double> nodal_external_;
   int known_ = 0;
   int constant_ = 0, trusted_ = 0;  ///< steps for which one start of Newton's iteration is taken unseen
-  double past_step_ = 0.0, contraction_ = -1.0;
+  double past_step_ = 0.0, curvature_ = -1.0;
 };
 
 }  // namespace gnomon::beam::linear

@@ -65,14 +65,14 @@ struct StepInput {
   Start start;
   bool compare;          ///< whether a poor start is compared with the constant
   double imposed[2][3];  ///< mean velocities of held unknowns
-  double contraction;    ///< |r_1| / |r_0|^2 of the last step, or < 0
+  double curvature;      ///< of late: |r| after a correction x of the mean velocities over |h x|^2, or < 0
 };
 
 struct StepResult {
   bool solved;                           ///< else u, v and the elements are as before
   bool constant_better, constant_worse;  ///< as a start, where both have been tried
   int evaluations, iterations;
-  double contraction;
+  double curvature;
 };
 
 /// One step of the implicit midpoint scheme, all in one: start, Newton's iteration, end.

@@ -81,21 +81,24 @@ inline void finish(const Layout& layout, const Arrays& arrays, const StepConstan
   }
 }
 
-/// Newton's iteration without line search. It ends when its quadratic contraction, as estimated from the last
-/// two residuals, or at first as in the last step, leaves a hundredth of what is asked after the present
-/// correction, a tenth if the estimate is wrong by ten: what is left of the residual is lost from the
-/// invariants in each step.
+/// Newton's iteration without line search. What the residual r is after a correction x of the mean
+/// velocities is quadratic in it: |r| = c |h x|^2. The iteration ends when, by the largest c of late, the
+/// correction just made leaves a hundredth of what is asked, a tenth if c is wrong by ten: what is left of
+/// the residual is lost from the invariants in each step. The size of the correction counts and not that of
+/// the residual before it: in a stiff beam a small force that bends moves it far, and the stretch this gives
+/// is of second order, but its force is large.
 template <int lanes, bool cayley>
 StepResult step(const Beam& beam, const Layout& layout, const Arrays& arrays, const StepInput& input) {
-  constexpr double poor_start = 1e-2, poor_contraction = 0.3, safety = 10.0;
+  constexpr double poor_start = 1e-2, poor_contraction = 0.3, safety = 10.0, fading = 0.9;
   constexpr int most_iterations = 8;
-  StepResult result{false, false, false, 0, 0, input.contraction};
+  StepResult result{false, false, false, 0, 0, fading * input.curvature};
   const double v_square = set_start<lanes>(layout, arrays, input.start);
   impose<lanes>(beam, arrays, input);
   const double speed = __builtin_fabs(2.0 / input.h) * __builtin_sqrt(v_square);
   const double floor = beam.force_floor + beam.mass_floor * speed;
   Sweep<lanes, cayley> sweep(beam, layout, arrays, input.h);
   typename Sweep<lanes, cayley>::Found before{}, found = {};
+  double moved_before = 0.0;
   bool compare = input.compare && input.start > Start::constant;
   for (int k = 0; k < most_iterations;) {
     found = sweep.eliminate();
@@ -118,23 +121,28 @@ StepResult step(const Beam& beam, const Layout& layout, const Arrays& arrays, co
       continue;
     }
     if (!(found.size < 1e300) || !(found.largest <= most_half_turn * most_half_turn)) return result;
-    if (k > 0 && !(found.size <= poor_contraction * before.size) && found.size > floor) return result;
-    if (found.size > floor) {
-      sweep.apply();
-      ++result.iterations;
-    }
-    double left = found.size;
+    const double moved = (input.h * input.h) * sweep.apply();
+    ++result.iterations;
     if (k > 0) {
-      const double ratio = found.size / before.size;
-      left *= safety * ratio * ratio;
-      if (k == 1) result.contraction = ratio / before.size;
-    } else {
-      left *= result.contraction >= 0.0 ? safety * result.contraction * found.size : 1e300;
+      if (found.size <= floor) {
+        result.solved = true;
+        break;
+      }
+      const double contraction = poor_contraction * poor_contraction;
+      if (!(found.size <= poor_contraction * before.size) && !(moved <= contraction * moved_before))
+        return result;
+      const double curvature = found.size / moved_before;
+      if (!(curvature <= result.curvature)) result.curvature = curvature;
     }
-    if (found.size <= floor || left <= floor || left <= 0.1 * beam.tolerance * found.scale) {
-      result.solved = true;
-      break;
+    if (result.curvature >= 0.0) {
+      const double left = safety * result.curvature * moved;
+      // What the parts of the residual come to in the end is at least the difference.
+      if (left <= 0.01 * floor || left <= 0.1 * beam.tolerance * (found.scale - found.size)) {
+        result.solved = true;
+        break;
+      }
     }
+    moved_before = moved;
     before = found;
     ++k;
   }

@@ -53,7 +53,8 @@ class Sweep {
 
   Sweep(const Beam& beam, const Layout& layout, const Arrays& arrays, double h)
       : beam_(beam), layout_(layout), arrays_(arrays), step_(beam, h, direction()) {
-    arm_ = 1.0 / (beam.length * beam.length);
+    reach_ = beam.length * beam.length;
+    arm_ = 1.0 / reach_;
     alignas(64) double longer[lanes];
     for (int l = 0; l < lanes; ++l) longer[l] = l < layout.extra ? 1.0 : 0.0;
     longer_ = load(longer);
@@ -95,11 +96,12 @@ class Sweep {
     return meet(front, squares, largest);
   }
 
-  /// Adds the correction to the mean velocities: x_i = z_i - G_i x_{i+1} - S_i x_0.
-  [[gnu::always_inline]] void apply() {
+  /// Adds the correction to the mean velocities: x_i = z_i - G_i x_{i+1} - S_i x_0. Returns the square of its
+  /// size, rotations times the length of the beam.
+  [[gnu::always_inline]] double apply() {
     const int rows = layout_.rows();
     Triple<V> x = cut_right_;
-    add_to_mean(rows, x);
+    V size = add_to_mean(rows, x);
     for (int i = rows - 1; i >= (between_cuts ? 1 : 0); --i) {
       const double* at = block(i);
       Triple<V> next;
@@ -114,9 +116,10 @@ class Sweep {
         }
       }
       x = next;
-      add_to_mean(i, x);
+      size += add_to_mean(i, x);
     }
-    if constexpr (between_cuts) add_to_mean(0, cut_left_);
+    if constexpr (between_cuts) size += add_to_mean(0, cut_left_);
+    return reduce(size);
   }
 
   static V load(const double* values) { return V(values, stdx::vector_aligned); }
@@ -141,10 +144,11 @@ class Sweep {
     const Triple<V> before = node(arrays_.v, i);
     return {{mean.at[0] - before.at[0], mean.at[1] - before.at[1], mean.at[2] - before.at[2]}};
   }
-  [[gnu::always_inline]] void add_to_mean(int i, const Triple<V>& x) {
+  [[gnu::always_inline]] V add_to_mean(int i, const Triple<V>& x) {
     Triple<V> mean = node(arrays_.mean, i);
     for (int k = 0; k < 3; ++k) mean.at[k] += x.at[k];
     put(mean, arrays_.mean, i);
+    return (x.at[0] * x.at[0] + x.at[1] * x.at[1]) + reach_ * (x.at[2] * x.at[2]);
   }
   [[gnu::always_inline]] ElementTerms<V> element(int i, V& largest) {
     V now[element_components];
@@ -273,7 +277,7 @@ class Sweep {
   const Layout& layout_;
   const Arrays& arrays_;
   StepConstants<V> step_;
-  double arm_;
+  double reach_, arm_;
   V longer_;
   Triple<V> free_, last_, last_change_;
   FirstNode<V> first_;
