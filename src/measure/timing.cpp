@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
 #include <random>
 
@@ -23,7 +24,8 @@ long batch_size(double seconds_per_run, double min_seconds) {
 
 struct TaskState {
   long batch = 1;
-  bool failed = false;
+  bool failed = false, over = false;
+  double last = 0.0;            // seconds of the budget that the last repetition took
   std::vector<double> seconds;  // per run, one entry for each repetition
 };
 
@@ -54,7 +56,7 @@ TimingStats summarise(const std::vector<double>& seconds) {
   for (const double x : seconds) deviations.push_back(std::abs(x - stats.median));
   const double deviation = median(deviations);
   stats.mdape = deviation == 0.0 ? 0.0 : deviation / stats.median;
-  stats.unstable = stats.mdape > 0.05;
+  stats.unstable = stats.mdape > 0.05 || stats.repetitions < enough_repetitions;
   return stats;
 }
 
@@ -101,16 +103,25 @@ std::vector<TimingStats> measure_interleaved(const std::vector<TimedTask>& tasks
     }
   }
 
-  double last_round = 0.0;
+  std::vector<std::size_t> shortest(tasks.size());
+  std::iota(shortest.begin(), shortest.end(), 0);
   for (int round = 0; round < plan.repetitions && !stopped; ++round) {
-    const double round_begin = plan.clock();
-    if (round > 0 && round_begin - begin + last_round > plan.budget_seconds) break;
+    if (round > 0) {
+      std::ranges::stable_sort(shortest, {}, [&](std::size_t i) { return states[i].last; });
+      double left = plan.budget_seconds - (plan.clock() - begin);
+      for (const std::size_t i : shortest) {
+        const double all = states[i].last * (plan.repetitions - round);
+        if (all > left && states[i].last > left) states[i].over = true;
+        if (!states[i].over) left -= all <= left ? all : states[i].last;
+      }
+    }
     for (std::size_t i = 0; i < tasks.size() && !stopped; ++i) {
-      if (states[i].failed) continue;
+      if (states[i].failed || states[i].over) continue;
+      const double from = plan.clock();
       const auto extra = static_cast<long>(random() % static_cast<std::uint64_t>(states[i].batch / 5 + 1));
       if (const auto seconds = measure(i, states[i].batch + extra)) states[i].seconds.push_back(*seconds);
+      states[i].last = plan.clock() - from;
     }
-    last_round = plan.clock() - round_begin;
   }
 
   std::vector<TimingStats> stats;

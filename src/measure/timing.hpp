@@ -16,8 +16,15 @@ struct TimingStats {
   double max = none;
   double mdape = none;  ///< median(|x - median|) / median
   int repetitions = 0;
-  bool unstable = false;  ///< mdape > 0.05
+  bool unstable = false;  ///< mdape > 0.05, or too few repetitions to say
 };
+
+/// Fewer repetitions say nothing of the spread.
+inline constexpr int enough_repetitions = 5;
+/// What the mark of unstable times means, for tables.
+inline constexpr const char* unstable_note =
+    "* repetitions differ by more than 5 % (median deviation), or there was time for fewer than five: read "
+    "with care";
 
 TimingStats summarise(const std::vector<double>& seconds);
 
@@ -46,9 +53,10 @@ struct TimingPlan {
 /// Times the tasks in turn, one repetition each and then the next round, so that a change of the machine's
 /// speed meets all alike. The first calls of each are discarded (one, more if it is too short to be timed)
 /// and set how many make a batch; up to a fifth more are added at random so that batches do not lock to a
-/// periodic disturbance. A new round starts only if the last one would fit into what is left of the budget;
-/// the first always runs. A task that fails is not called again. `stop`, if set, is asked before every call;
-/// when it says true, what is finished is returned.
+/// periodic disturbance. After the first round, which always runs, what is
+/// left of the budget goes to the shortest that it can finish; others go on while one repetition fits. A task
+/// that fails is not called again. `stop`, if set, is asked before every call; when it says true, what is
+/// finished is returned.
 std::vector<TimingStats> measure_interleaved(const std::vector<TimedTask>& tasks, const TimingPlan& plan,
                                              const std::function<bool()>& stop);
 

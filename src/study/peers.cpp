@@ -272,7 +272,7 @@ output::Table peer_runs_table(const PeerStudy& study) {
            output::number_cell(time.error, 2), output::count_cell(time.evaluations), median,
            output::number_cell(1e6 * time.run.min), output::count_cell(time.run.repetitions)});
     }
-  table.notes.push_back("* repetitions differ by more than 5 %");
+  table.notes.push_back(unstable_note);
   return table;
 }
 

@@ -156,8 +156,7 @@ Table runs_table(const SceneStudy& study, const std::string& caption) {
     table.rows.push_back(std::move(cells));
   }
   table.notes.push_back(reference_line(study));
-  if (unstable)
-    table.notes.push_back("* repetitions differ by more than 5 % (median deviation): read with care");
+  if (unstable) table.notes.push_back(unstable_note);
   return table;
 }
 

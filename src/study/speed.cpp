@@ -201,8 +201,8 @@ output::Table step_times_table(const SpeedStudy& study) {
       table.rows.back().insert(table.rows.back().begin() + 3, time.instructions);
     }
   }
-  table.notes.push_back(fmt::format("runs of {}{} steps, interleaved; * repetitions differ by more than 5 %",
-                                    parts ? "at least " : "", shortest));
+  table.notes.push_back(
+      fmt::format("runs of {}{} steps, interleaved; {}", parts ? "at least " : "", shortest, unstable_note));
   if (closed_forms)
     table.notes.push_back("a closed form: one evaluation, what is worked out once a body apart");
   return table;
@@ -253,7 +253,7 @@ output::Table parts_table(const SpeedStudy& study, std::string_view part) {
   }
   table.notes.push_back(
       "medians, interleaved, one core; where there is a pattern, it is analysed beforehand, with the same "
-      "pivots where they serve; * repetitions differ by more than 5 %");
+      "pivots where they serve; * repetitions differ by more than 5 % (median deviation)");
   return table;
 }
 

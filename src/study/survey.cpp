@@ -232,8 +232,8 @@ output::Table survey_cost_table(const Survey& survey) {
       "order of the first error class; — no asymptotic range; in brackets the declared order where the "
       "observed one is more than 0.1 away from it",
       "evaluations a step on the last class; times: medians of 5 interleaved runs of 20000 steps (5000 in a "
-      "quick study), one core; "
-      "* repetitions differ by more than 5 %"};
+      "quick study), one core",
+      unstable_note};
   return table;
 }
 

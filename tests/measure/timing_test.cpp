@@ -152,6 +152,20 @@ TEST_CASE("measure: the budget ends the measurement between rounds, set-up inclu
   CHECK(stats[1].repetitions == 1);
 }
 
+TEST_CASE("measure: of a budget too small for all, the short runs get their repetitions") {
+  Stage stage;
+  const std::vector<TimedTask> tasks{stage.task('a', 10.0), stage.task('b', 1.0), stage.task('c', 2.0)};
+  TimingPlan plan = stage.plan(5, 0.02);
+  plan.budget_seconds = 2 * 13.0 + 4 * 3.0 + 10.5;  // warm-up and first round, then b and c, and one of a
+  const auto stats = measure_interleaved(tasks, plan, nullptr);
+  CHECK(stats[0].repetitions == 2);
+  CHECK(stats[1].repetitions == 5);
+  CHECK(stats[2].repetitions == 5);
+  CHECK(stage.now <= plan.budget_seconds);
+  CHECK(stats[0].unstable);
+  CHECK_FALSE(stats[1].unstable);
+}
+
 TEST_CASE("measure: stopping keeps the finished repetitions and discards the begun one") {
   Stage stage;
   const std::vector<TimedTask> tasks{stage.task('a', 1.0), stage.task('b', 0.25)};
