@@ -74,19 +74,20 @@ class HeavySymmetricTop {
     const JacobiValues<Real> v{std::copysign(std::sqrt(-y1 / range_), slope), std::sqrt(y2 / range_),
                                std::sqrt(y3 / to_third)};
     u0_ = jacobi_argument(v);
+    // On the separatrix, k1 = 0, there are no half periods, and the functions are hyperbolic ones.
     const JacobiValues<Real> end{1, 0, k1};
     const Quaternion w(0, m[0] / i1_, m[1] / i1_, m[2] / axial), rate = q * w;  // twice the rate
     if (passes_zero(up_)) {
       set_argument(up_, up, Complex(rate.w(), rate.z()) / Real(2), v.sn, v.cn * v.dn);
     } else {
       up_.start = up_integral(v, u0_);
-      up_.half = 2 * up_integral(end, jacobi_.quarter_period());
+      if (k1 > 0) up_.half = 2 * up_integral(end, jacobi_.quarter_period());
     }
     if (passes_zero(down_)) {
       set_argument(down_, down, Complex(rate.x(), rate.y()) / Real(2), v.cn, -v.sn * v.dn);
     } else {
       down_.start = down_integral(v, u0_);
-      down_.half = 2 * down_integral(end, jacobi_.quarter_period());
+      if (k1 > 0) down_.half = 2 * down_integral(end, jacobi_.quarter_period());
     }
   }
 
@@ -156,10 +157,11 @@ class HeavySymmetricTop {
   // A sum of positive terms (M. Abramowitz, I.A. Stegun, 17.7.15), unlike the integral with n < 0 itself.
   Real up_integral(const JacobiValues<Real>& v, Real u) const {
     const Real a = up_.least, most = a + range_, b = modulus_square_ * a + range_;
-    const Real other = third_kind(v, u, b / most, k1_ * std::sqrt(a / most));
+    // On the separatrix nothing is left of the other integral, and cn = dn may underflow.
+    const Real cn_dn = k1_ > 0 ? v.cn / v.dn : Real(1);
+    const Real other = k1_ > 0 ? third_kind(v, u, b / most, k1_ * std::sqrt(a / most)) : Real(0);
     return (k1_ * k1_ * (range_ / most) * other + modulus_square_ * u) / b +
-           std::sqrt(range_ / (a * b * most)) *
-               std::atan(std::sqrt(range_ * b / (a * most)) * v.sn * v.cn / v.dn);
+           std::sqrt(range_ / (a * b * most)) * std::atan(std::sqrt(range_ * b / (a * most)) * v.sn * cn_dn);
   }
   Real down_integral(const JacobiValues<Real>& v, Real u) const {
     const Real most = down_.least + range_;

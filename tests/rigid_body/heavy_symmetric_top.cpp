@@ -130,6 +130,28 @@ TEST_CASE("rigid body: heavy symmetric tops near the separatrix", "[rigid_body][
   }
 }
 
+TEST_CASE("rigid body: heavy symmetric tops on the separatrix", "[rigid_body][closed_form]") {
+  // Lz = L3 and just the energy of rest in the upper vertical, which the axis approaches in infinite time.
+  const TopCase cases[] = {
+      {"from the side", 1, 0.5, 1, {0.5L, 0.5L, 0.5L, 0.5L}, {1, 1, 1}, 3},
+      {"from the side, backwards", 1, 0.5, 1, {0.5L, 0.5L, 0.5L, 0.5L}, {1, 1, 1}, -3},
+      {"pendulum", 5, 1, 20, {0, 1, 0, 0}, {20, 0, 0}, 3},
+      {"pendulum, the other way", 5, 1, 20, {0, 0, 1, 0}, {20, 0, 0}, -2},
+  };
+  for (const TopCase& c : cases) {
+    INFO(c.name << ": " << against_series<long double>(c) << ", double " << against_series<double>(c));
+    CHECK(against_series<long double>(c) <= 2e-15);
+    CHECK(against_series<double>(c) <= 2e-14);
+    CHECK(against_series<double>(c, 1e-9) >= 1e-12);
+    const rigid_body::HeavySymmetricTop<double> top(c.transverse, c.axial, c.torque,
+                                                    c.orientation.cast<double>(), c.momentum.cast<double>());
+    // The axis has arrived.
+    const Eigen::Quaterniond late = top.at(1e3 * c.time).orientation;
+    CHECK(std::abs(late.norm() - 1.0) <= 1e-15);
+    CHECK(std::hypot(late.x(), late.y()) <= 1e-15);
+  }
+}
+
 TEST_CASE("rigid body: published end state of the fast heavy top in closed form",
           "[rigid_body][closed_form]") {
   // O. Bruls, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121; good to six digits.
