@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <concepts>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -81,6 +82,12 @@ concept HasField = requires(const M& model, const typename M::State& state, cons
 template <class M>
 concept HasExact = requires(const M& model, double t) {
   { model.exact(t) } -> std::same_as<Exact<M>>;
+};
+
+/// A model whose motion is known in closed form for some data, for which a value is returned.
+template <class M>
+concept HasExactForSome = requires(const M& model, double t) {
+  { model.exact_if_known(t) } -> std::same_as<std::optional<Exact<M>>>;
 };
 
 /// A model with places to look at.

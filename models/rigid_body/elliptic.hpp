@@ -25,7 +25,7 @@ Real agm_with_one(Real x) {
     const Real mean = (a + b) / 2;
     b = std::sqrt(a * b);
     a = mean;
-    if (std::abs(difference) <= enough * a) return (a + b) / 2;
+    if (!(std::abs(difference) > enough * a)) return (a + b) / 2;
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include "models/rigid_body/carlson.hpp"
 #include "models/rigid_body/elliptic.hpp"
+#include "models/rigid_body/heavy_symmetric_top_constants.hpp"
 
 namespace gnomon::rigid_body {
 
@@ -28,10 +29,19 @@ namespace gnomon::rigid_body {
 /// Lz and L3 being the momenta about the vertical and the axis. With the unit quaternion (w, x, y, z) of the
 /// body, w + i z and x + i y have the squared moduli (1 + z)/2 and (1 - z)/2 and the rates of argument
 ///     (Lz + L3)/(2 I1 (1 + z)) + r/2   and   (Lz - L3)/(2 I1 (1 - z)) - r/2,   r = L3 (1/I3 - 1/I1),
-/// whose integrals are elliptic ones of the third kind. The roots are found as distances from the initial z,
-/// which keeps their accuracy near steady precession, where z1 = z2. Where Lz = L3, one root is z = 1. If it
-/// is z2, the axis passes through the vertical, and x + i y is sqrt((z2 - z1)/2) cn with its sign, turning at
-/// the rate -r/2 alone. Where Lz = -L3, the same is true of z1 = -1, w + i z, sn and r/2.
+/// whose integrals are elliptic ones of the third kind. Where Lz = L3, one root is z = 1. If it is z2, the
+/// axis passes through the vertical, and x + i y is sqrt((z2 - z1)/2) cn with its sign, turning at the rate
+/// -r/2 alone. Where Lz = -L3, the same is true of z1 = -1, w + i z, sn and r/2.
+///
+/// Conditioning. On the separatrix, Lz = L3 with the energy of rest in the upper vertical, the axis
+/// approaches that in infinite time; k1 = 0, and the functions are hyperbolic ones. Beside it the axis passes
+/// the vertical or turns back after each half period, 2 K / lambda ~ 2 ln(4 / k1) / lambda. A relative change
+/// eps of the data, or the roundoff of an integrator, changes k1^2 by about eps, and after n half periods the
+/// phase by n eps / k1^2. That is a property of the problem. Here the data are taken as exact and k1 is had
+/// from them with twice the digits of extended precision (heavy_symmetric_top_constants.hpp), so that the
+/// values returned do not suffer from it: error_bound() grows with the angle turned, plus a term in n (eps /
+/// k1)^2, eps being that of extended precision; where k1 = 0 and the data had to be rounded, the term grows
+/// as exp(lambda t).
 template <class Real>
 class HeavySymmetricTop {
  public:
@@ -42,53 +52,7 @@ class HeavySymmetricTop {
     Vector3 angular_momentum;  ///< body components
   };
 
-  HeavySymmetricTop(Real transverse, Real axial, Real torque, const Quaternion& orientation, const Vector3& m)
-      : i1_(transverse), l3_(m[2]) {
-    const Quaternion q = orientation.normalized();
-    const Complex up(q.w(), q.z()), down(q.x(), q.y());
-    const Real below = 2 * std::norm(down), above = 2 * std::norm(up), z0 = (above - below) / 2;
-    // The vertical in the body is (g1, g2, z).
-    const Real g1 = 2 * (q.x() * q.z() - q.w() * q.y()), g2 = 2 * (q.y() * q.z() + q.w() * q.x());
-    const Real across = m[0] * g1 + m[1] * g2, perpendicular = m[0] * m[0] + m[1] * m[1];
-    const Real slope = m[1] * g1 - m[0] * g2;  // I1 z'
-    const Real sum = across + m[2] * above, difference = across - m[2] * below, f3 = 2 * i1_ * torque;
-    const auto [y1, y2, y3] =
-        roots({slope * slope, -2 * z0 * perpendicular - f3 * above * below + 2 * m[2] * across,
-               -perpendicular + 2 * f3 * z0 - m[2] * m[2], f3},
-              above, below, sum, difference);
-    range_ = y2 - y1;
-
-    // 1 + z1 and 1 - z2, from the product of the roots where they are small differences.
-    const Real gap = y3 - below, spin = m[2] * (transverse - axial) / (2 * transverse * axial);
-    up_ = {above + y1, sum, spin, std::arg(up)};
-    down_ = {below - y2, difference, -spin, std::arg(down)};
-    if (-y1 > above / 2) up_.least = sum * sum / (f3 * (above + y2) * (above + y3));
-    if (y2 > below / 2 && gap > 0) down_.least = difference * difference / (f3 * (below - y1) * gap);
-    if (range_ == 0) return;
-
-    const Real to_third = y3 - y1, k1 = std::sqrt(std::max(Real(0), (y3 - y2) / to_third));
-    lambda_ = std::sqrt(torque * to_third / (2 * i1_));
-    modulus_square_ = range_ / to_third;
-    k1_ = k1;
-    jacobi_ = JacobiFunctions<Real>(std::sqrt(modulus_square_), k1);
-    const JacobiValues<Real> v{std::copysign(std::sqrt(-y1 / range_), slope), std::sqrt(y2 / range_),
-                               std::sqrt(y3 / to_third)};
-    u0_ = jacobi_argument(v);
-    const JacobiValues<Real> end{1, 0, k1};
-    const Quaternion w(0, m[0] / i1_, m[1] / i1_, m[2] / axial), rate = q * w;  // twice the rate
-    if (passes_zero(up_)) {
-      set_argument(up_, up, Complex(rate.w(), rate.z()) / Real(2), v.sn, v.cn * v.dn);
-    } else {
-      up_.start = up_integral(v, u0_);
-      up_.half = 2 * up_integral(end, jacobi_.quarter_period());
-    }
-    if (passes_zero(down_)) {
-      set_argument(down_, down, Complex(rate.x(), rate.y()) / Real(2), v.cn, -v.sn * v.dn);
-    } else {
-      down_.start = down_integral(v, u0_);
-      down_.half = 2 * down_integral(end, jacobi_.quarter_period());
-    }
-  }
+  explicit HeavySymmetricTop(const HeavyTopData& data) { prepare(data, heavy_top_constants(data)); }
 
   /// State at time t [s], of either sign.
   State at(Real t) const {
@@ -112,8 +76,72 @@ class HeavySymmetricTop {
     return {q.normalized(), Vector3(i1_ * w[0], i1_ * w[1], l3_)};
   }
 
+  /// Upper bound of the error of at(t) against the exact solution for the data as given: of the orientation
+  /// (geodesic distance [rad]), and of the angular momentum over momentum_size().
+  Real error_bound(Real t) const {
+    const Real turned = turning_ * (std::abs(t) + (range_ > 0 ? 2 * std::abs(u0_) / lambda_ : Real(0)));
+    const Real rounding = 8 * std::numeric_limits<Real>::epsilon() * (1 + turned);
+    if (!(range_ > 0) || separation_error_ == 0) return rounding;
+    // An error d of k1^2 shifts each half period by about d / (2 k1^2).
+    const long double phase = static_cast<long double>(lambda_ * std::abs(t) + std::abs(u0_));
+    const long double amplified =
+        separation_error_ * (k1_ > 0 ? 1 + static_cast<long double>(turned) : std::exp(phase));
+    return rounding + static_cast<Real>(std::min(4.0L, amplified));
+  }
+  /// The most that the angular momentum becomes, and the largest rate of turning [1/s].
+  Real momentum_size() const { return momentum_size_; }
+  Real turning() const { return turning_; }
+  /// Complementary modulus of the Jacobi functions: the distance from the separatrix, on which it is 0; 1
+  /// where the inclination stays as it is.
+  Real complementary_modulus() const { return k1_; }
+
  private:
   using Complex = std::complex<Real>;
+
+  [[gnu::noinline]] void prepare(const HeavyTopData& data, const HeavyTopConstants& c) {
+    const long double transverse = data.transverse, axial = data.axial;
+    std::array<long double, 4> p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = data.orientation[k].high;
+    const Quaternion q =
+        Eigen::Quaternion<long double>(p[0], p[1], p[2], p[3]).normalized().template cast<Real>();
+    const Complex up(q.w(), q.z()), down(q.x(), q.y());
+    const Vector3 m(Real(data.angular_momentum[0]), Real(data.angular_momentum[1]),
+                    Real(data.angular_momentum[2]));
+    const Real spin =
+        static_cast<Real>(data.angular_momentum[2] * (transverse - axial) / (2 * transverse * axial));
+    i1_ = Real(transverse);
+    l3_ = m[2];
+    up_ = {Real(c.up), Real(c.sum), spin, std::arg(up)};
+    down_ = {Real(c.down), Real(c.difference), -spin, std::arg(down)};
+    momentum_size_ = Real(c.transverse_most) + std::abs(l3_);
+    turning_ = Real(c.transverse_most) / i1_ + std::abs(l3_) / i1_ + 2 * std::abs(spin) +
+               2 * Real(std::sqrt(data.torque.high / transverse)) + Real(c.rate);
+    if (c.steady) return;
+
+    range_ = Real(c.range);
+    lambda_ = Real(c.rate);
+    modulus_square_ = Real(c.k * c.k);
+    k1_ = Real(c.k1);
+    separation_error_ = c.separation_error;
+    jacobi_ = JacobiFunctions<Real>(Real(c.k), k1_);
+    const JacobiValues<Real> v{Real(c.v[0]), Real(c.v[1]), Real(c.v[2])};
+    u0_ = jacobi_argument(v);
+    // On the separatrix, k1 = 0, there are no half periods.
+    const JacobiValues<Real> end{1, 0, k1_};
+    const Quaternion w(0, m[0] / i1_, m[1] / i1_, m[2] / Real(axial)), rate = q * w;  // twice the rate
+    if (passes_zero(up_)) {
+      set_argument(up_, up, Complex(rate.w(), rate.z()) / Real(2), v.sn, v.cn * v.dn);
+    } else {
+      up_.start = up_integral(v, u0_);
+      if (k1_ > 0) up_.half = 2 * up_integral(end, jacobi_.quarter_period());
+    }
+    if (passes_zero(down_)) {
+      set_argument(down_, down, Complex(rate.x(), rate.y()) / Real(2), v.cn, -v.sn * v.dn);
+    } else {
+      down_.start = down_integral(v, u0_);
+      if (k1_ > 0) down_.half = 2 * down_integral(end, jacobi_.quarter_period());
+    }
+  }
 
   /// w + i z or x + i y: twice the squared modulus is `least` + (z2 - z1) s^2 with s = sn or cn.
   struct Component {
@@ -156,10 +184,11 @@ class HeavySymmetricTop {
   // A sum of positive terms (M. Abramowitz, I.A. Stegun, 17.7.15), unlike the integral with n < 0 itself.
   Real up_integral(const JacobiValues<Real>& v, Real u) const {
     const Real a = up_.least, most = a + range_, b = modulus_square_ * a + range_;
-    const Real other = third_kind(v, u, b / most, k1_ * std::sqrt(a / most));
+    // On the separatrix nothing is left of the other integral, and cn = dn may underflow.
+    const Real cn_dn = k1_ > 0 ? v.cn / v.dn : Real(1);
+    const Real other = k1_ > 0 ? third_kind(v, u, b / most, k1_ * std::sqrt(a / most)) : Real(0);
     return (k1_ * k1_ * (range_ / most) * other + modulus_square_ * u) / b +
-           std::sqrt(range_ / (a * b * most)) *
-               std::atan(std::sqrt(range_ * b / (a * most)) * v.sn * v.cn / v.dn);
+           std::sqrt(range_ / (a * b * most)) * std::atan(std::sqrt(range_ * b / (a * most)) * v.sn * cn_dn);
   }
   Real down_integral(const JacobiValues<Real>& v, Real u) const {
     const Real most = down_.least + range_;
@@ -175,53 +204,13 @@ class HeavySymmetricTop {
     }
   }
 
-  /// The roots y1 <= 0 <= y2 <= y3 of f[0] + f[1] y + f[2] y^2 + f[3] y^3, which is -(Lz - L3)^2 at y = below
-  /// and -(Lz + L3)^2 at y = -above; y1 = y2 = 0 where z stays as it is.
-  static std::array<Real, 3> roots(const std::array<Real, 4>& f, Real above, Real below, Real sum,
-                                   Real difference) {
-    std::array<Real, 3> y;
-    if (sum == 0 && difference == 0) {
-      const Real third = above * below > 0 ? f[0] / (f[3] * above * below) : -f[2] / f[3] + above - below;
-      y = {-above, third, below};
-    } else if (difference == 0) {
-      y = with_root(f, below);
-    } else if (sum == 0) {
-      y = with_root(f, -above);
-    } else {
-      y = with_root(f, largest_root(f, below));
-    }
-    std::sort(y.begin(), y.end());
-    if (f[0] == 0 && f[1] == 0) y[0] = y[1] = 0;
-    return {std::min(y[0], Real(0)), std::max(y[1], Real(0)), std::max(y[2], Real(0))};
-  }
-  /// All roots, given one of them.
-  static std::array<Real, 3> with_root(const std::array<Real, 4>& f, Real root) {
-    // f3 (y - root) (y^2 + b y + c)
-    const Real c = root != 0 ? -f[0] / (f[3] * root) : f[1] / f[3];
-    // b by the formula with the smaller terms, hence rounding errors
-    const bool forward =
-        std::abs(root) * (std::abs(f[2]) + f[3] * std::abs(root)) < std::abs(f[1]) + f[3] * std::abs(c);
-    const Real b = root == 0 || forward ? f[2] / f[3] + root : (c - f[1] / f[3]) / root;
-    const Real t = -(b + std::copysign(std::sqrt(std::max(Real(0), b * b - 4 * c)), b)) / 2;
-    return {root, t, t != 0 ? c / t : Real(0)};
-  }
-  // Newton's method from above, where the cubic is convex and all its roots are to the left.
-  static Real largest_root(const std::array<Real, 4>& f, Real least) {
-    Real y = least + 1 + (std::abs(f[0]) + std::abs(f[1]) + std::abs(f[2])) / f[3];
-    for (int k = 0; k < 500; ++k) {
-      const Real value = ((f[3] * y + f[2]) * y + f[1]) * y + f[0];
-      const Real derivative = (3 * f[3] * y + 2 * f[2]) * y + f[1], next = y - value / derivative;
-      if (!(next < y) || !(derivative > 0)) break;
-      y = next;
-    }
-    return std::max(y, least);
-  }
-
-  Real i1_, l3_;
+  Real i1_{}, l3_{};
   Component up_, down_;
   Real range_{}, lambda_{};  // z2 - z1
   JacobiFunctions<Real> jacobi_{Real(0), Real(1)};
-  Real modulus_square_{}, k1_{}, u0_{};
+  Real modulus_square_{}, k1_{1}, u0_{};
+  Real momentum_size_{}, turning_{};
+  long double separation_error_{};  // of k1^2, see HeavyTopConstants
 };
 
 }  // namespace gnomon::rigid_body

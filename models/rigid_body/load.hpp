@@ -90,7 +90,8 @@ struct AttitudePotential {
   double potential(const Eigen::Matrix3d& attitude) const {
     const Eigen::Quaterniond q(attitude), b(attractor[0], attractor[1], attractor[2], attractor[3]);
     const double stretch = root8 * q.vec().norm() - rest;
-    return stiffness * stretch * stretch - attraction / (root8 * (b.conjugate() * q).vec().norm());
+    const double spring = stiffness * stretch * stretch;
+    return attraction != 0.0 ? spring - attraction / (root8 * (b.conjugate() * q).vec().norm()) : spring;
   }
   double depth() const {
     const double stretch = std::max(rest, root8 - rest);

@@ -38,7 +38,7 @@ Eigen::Quaterniond read_orientation(Section& body) {
   return Eigen::Quaterniond::Identity();
 }
 
-AttitudePotential read_potential(Section& load, Json& resolved) {
+AttitudePotential read_potential(Section& load, const Eigen::Quaterniond& start, Json& resolved) {
   load.only({"kind", "stiffness", "rest", "attraction", "attractor"}, "kind \"attitude_potential\"");
   AttitudePotential potential{};
   potential.stiffness = load.number_or("stiffness", 0.0, "a finite number (of the spring, J)");
@@ -50,6 +50,9 @@ AttitudePotential read_potential(Section& load, Json& resolved) {
   const Eigen::Quaterniond q(
       Eigen::AngleAxisd(angle, angle > 0.0 ? Eigen::Vector3d(p / angle) : Eigen::Vector3d::UnitX()));
   potential.attractor = {q.w(), q.x(), q.y(), q.z()};
+  if (potential.attraction != 0.0 && (q.conjugate() * start).vec().norm() <= 1e-14)
+    load.fail("attractor", load.shown("attractor"),
+              "another attitude than the one at t = 0: the potential is infinite at the attractor");
   resolved["stiffness"] = potential.stiffness;
   resolved["rest"] = potential.rest;
   resolved["attraction"] = potential.attraction;
@@ -109,8 +112,8 @@ ParsedModel read(Section& root, double t_end) {
       resolved["load"]["centre"] = list(centre);
       parsed.model = box(RigidBody<Gravity>(inertia, initial, {weight, centre}, t_end));
     } else if (kind == "attitude_potential") {
-      parsed.model =
-          box(RigidBody<AttitudePotential>(inertia, initial, read_potential(*load, resolved["load"]), t_end));
+      parsed.model = box(
+          RigidBody<AttitudePotential>(inertia, initial, read_potential(*load, q, resolved["load"]), t_end));
     } else if (kind != "none") {
       load->only({"kind", "moment"}, owner);
       const Eigen::Vector3d moment = vector(load->numbers("moment", 3, "three finite numbers (N m)"));

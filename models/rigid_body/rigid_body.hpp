@@ -53,12 +53,9 @@ class RigidBody {
     if constexpr (std::is_same_v<Load, Gravity>)
       if (symmetric_top_refusal().empty() && initial.attitude.allFinite() &&
           std::isfinite(initial.angular_momentum.stableNorm())) {
-        const Eigen::Quaterniond turn(top_axes());
         const int axis = symmetry_axis();
-        symmetric_motion_ = SymmetricMotion{
-            turn,
-            {inertia[(axis + 1) % 3], inertia[axis], std::abs(load_.weight * load_.centre[axis]),
-             unit_quaternion(initial.attitude) * turn, turn.conjugate() * initial.angular_momentum}};
+        symmetric_motion_ = SymmetricMotion{top_axes(axis, load_.weight * load_.centre[axis] > 0.0),
+                                            HeavySymmetricTop<double>(top_data())};
       }
     momentum_scale_ = momentum > 0.0 ? momentum : 1.0;
     time_scale_ = rate > 0.0 ? 1.0 / rate : horizon;
@@ -204,7 +201,26 @@ class RigidBody {
     return {};
   }
 
-  /// The same in extended precision, as a reference with its bound.
+  /// The closed form of Lagrange's top in extended precision with its bound; nothing for other bodies.
+  std::optional<Exact<RigidBody>> exact_if_known(double t) const requires std::is_same_v<Load, Gravity> {
+    if (!symmetric_motion_) return std::nullopt;
+    using Real = long double;
+    const HeavySymmetricTop<Real> top(top_data());
+    const auto state = top.at(Real(t));
+    const Eigen::Quaterniond turn = symmetric_motion_->turn;
+    const Eigen::Quaterniond q =
+        (state.orientation * turn.conjugate().cast<Real>()).normalized().template cast<double>();
+    const double coefficients[4] = {q.w(), q.x(), q.y(), q.z()};
+    const Eigen::Vector3d m = turn.toRotationMatrix() * state.angular_momentum.template cast<double>();
+    // The state is rounded to double, and so was the initial one: a unit in the last place each.
+    const double bound = static_cast<double>(top.error_bound(Real(t))) + 8.0 * 2.2e-16;
+    const double size = std::max(initial_.angular_momentum.norm(), m.norm());
+    return Exact<RigidBody>{
+        {homogeneous_matrix(coefficients), m},
+        {bound, size > 0.0 ? std::min(2.0, bound * static_cast<double>(top.momentum_size()) / size) : bound}};
+  }
+
+  /// The closed form of the free body in extended precision, as a reference with its bound.
   Exact<RigidBody> exact(double t) const requires(!has_moment) {
     using Real = long double;
     const Eigen::Quaterniond q = unit_quaternion(initial_.attitude);
@@ -230,14 +246,10 @@ class RigidBody {
     }
     return -1;
   }
-  /// Right-handed axes with the third along the symmetry axis, on the side of the greater potential energy.
-  Eigen::Matrix3d top_axes() const requires std::is_same_v<Load, Gravity> {
-    const int axis = symmetry_axis(), a = (axis + 1) % 3, b = (axis + 2) % 3;
-    const bool upright = load_.weight * load_.centre[axis] > 0.0;
-    Eigen::Matrix3d axes;
-    axes << Eigen::Vector3d::Unit(upright ? a : b), Eigen::Vector3d::Unit(upright ? b : a),
-        (upright ? 1.0 : -1.0) * Eigen::Vector3d::Unit(axis);
-    return axes;
+  HeavyTopData top_data() const requires std::is_same_v<Load, Gravity> {
+    const int axis = symmetry_axis();
+    return HeavyTopData::of(inertia_, load_.weight, load_.centre[axis], axis,
+                            unit_quaternion(initial_.attitude), initial_.angular_momentum);
   }
   bool is_kovalevskaya() const {
     if constexpr (std::is_same_v<Load, Gravity>) {

@@ -12,7 +12,7 @@ namespace {
 
 /// A run with more evaluations, some ten milliseconds, is of no use at any level.
 constexpr long most_evaluations = 400'000;
-constexpr double first_tol = 10.0, last_tol = 1e-14;
+constexpr double first_tol = 0.1, last_tol = 1e-14;
 /// Settings a decade of tolerances, and of steps an octave.
 constexpr int settings_a_decade = 4, settings_an_octave = 4;
 constexpr long most_steps = 1L << 22;

@@ -1,6 +1,8 @@
 #include "models/rigid_body/carlson.hpp"
 
 #include <boost/math/special_functions/ellint_rj.hpp>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "tests/catch.hpp"
@@ -28,6 +30,28 @@ TEST_CASE("elliptic: Carlson's integral of the third kind in double precision", 
     worst = std::max(worst, error);
   }
   CHECK(worst >= 1e-16);
+}
+
+TEST_CASE("elliptic: Carlson's integral of the third kind ends for any arguments", "[rigid_body]") {
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  CHECK(carlson_rj(0.0, 0.0, 1.0, 0.0) == infinity);
+  CHECK(carlson_rj(0.0, 0.0, 1.0, 1.0) == infinity);
+  CHECK(carlson_rj(0.5, 0.7, 1.0, 0.0) == infinity);
+  CHECK(std::isnan(carlson_rj(0.5, 0.7, 1.0, nan)));
+  CHECK(std::isnan(carlson_rj(0.5, infinity, 1.0, 1.0)));
+  const double edges[] = {0.0, 4e-324, 1e-308, 1e-160, 1.0, 1e160, 1e307};
+  for (double x : edges)
+    for (double y : edges)
+      for (double z : edges)
+        for (double p : edges) {
+          INFO(x << " " << y << " " << z << " " << p);
+          CHECK(!(carlson_rj(x, y, z, p) < 0.0));
+        }
+  // Homogeneous of degree -3/2, exactly so for powers of 4.
+  for (int k : {-300, -20, 20, 200})
+    CHECK(std::ldexp(carlson_rj(std::ldexp(2.0, 2 * k), std::ldexp(3.0, 2 * k), std::ldexp(4.0, 2 * k),
+                                std::ldexp(5.0, 2 * k)),
+                     3 * k) == carlson_rj(2.0, 3.0, 4.0, 5.0));
 }
 
 TEST_CASE("elliptic: Carlson's degenerate integral is smooth at its series' edge", "[rigid_body]") {
