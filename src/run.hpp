@@ -49,6 +49,7 @@ struct RunResult {
   Cost cost;
   double cpu_seconds = 0.0;  ///< CPU time of the threads that integrate, of the integration alone
   std::vector<std::string> flags;
+  std::vector<double> own_bound;  ///< of a closed form that bounds its errors: by metric, at t
 };
 
 /// Number of equal steps and their size for a requested step, and whether they miss a break of the data.
@@ -220,6 +221,10 @@ RunResult run_closed_form(const M& model, const RunSpec& spec) {
   result.t = spec.t_end;
   result.state = model.flatten(state);
   result.cost.rhs = 1;
+  if constexpr (requires { S::error_bound(model, spec.t_end); }) {
+    const auto bound = S::error_bound(model, spec.t_end);
+    result.own_bound.assign(bound.begin(), bound.end());
+  }
   if (!all_finite(result.state)) {
     result.status = Status::diverged;
     result.message = "the closed form gave a value that is not finite";

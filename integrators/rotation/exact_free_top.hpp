@@ -22,6 +22,11 @@ struct ExactFreeTop {
   static auto at(const M& model, double t) -> decltype(model.closed_form(t)) {
     return model.closed_form(t);
   }
+  /// Of the errors of at(model, t), in the order of the model's metrics.
+  template <class M>
+  static auto error_bound(const M& model, double t) -> decltype(model.closed_form_bound(t)) {
+    return model.closed_form_bound(t);
+  }
 };
 
 }  // namespace gnomon::rotation

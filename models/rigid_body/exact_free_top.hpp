@@ -111,10 +111,11 @@ class ExactFreeTop {
     // Whole half periods 2 K are taken off; each adds a constant to psi and changes the signs of sn and cn.
     const Real quarter = jacobi_.quarter_period();
     const Real half_periods = std::nearbyint(u / (2 * quarter));
-    const Real rest = half_periods == 0 ? u : u - half_periods * (2 * quarter);
-    const JacobiValues<Real> v = jacobi_.at(std::clamp(rest, -quarter, quarter));
-    const Real psi =
-        psi_rate_ * t + psi_sign_ * (half_periods * psi_half_period_ + (psi_periodic(v, rest) - psi_start_));
+    const Real rest = half_periods == 0 ? u : std::clamp(u - half_periods * (2 * quarter), -quarter, quarter);
+    const JacobiValues<Real> v = jacobi_.at(rest);
+    const Real rest_of_psi =
+        psi_sign_ * (half_periods * psi_half_period_ + (psi_periodic(v, rest) - psi_start_));
+    const Real psi = rest_of_psi + (turns_slowly_ ? psi_rate_ / lambda_ * (rest - u0_) : psi_rate_ * t);
 
     const Real parity = std::fmod(half_periods, Real(2)) == 0 ? Real(1) : Real(-1);
     Vector3 m;
@@ -133,7 +134,7 @@ class ExactFreeTop {
     const Real time = std::abs(t);
     if (steady_) return 4 * eps * (1 + rate_.norm() * time);
     const Real phase = lambda_ * time;
-    const Real rounding = 8 * eps * (1 + 2 * std::abs(u0_) + std::abs(psi_rate_) * time + phase);
+    const Real rounding = 8 * eps * (1 + 2 * std::abs(u0_) + greatest_rate_ * time);
     // An error d of k1^2 shifts each half period by about d / (2 k1^2); on the separatrix it grows
     // exponentially.
     if (separation_error_ == 0) return rounding;
@@ -244,7 +245,33 @@ class ExactFreeTop {
         std::isfinite(quarter) ? 2 * psi_by_integral({Real(1), Real(0), k1_}, quarter) : Real(0);
     if constexpr (by_theta) prepare_theta();
     psi_start_ = psi_periodic(start, u0_);
+    greatest_rate_ = psi_rate_ + lambda_;
+    prepare_slow_turn(i_a, i_b, i_c);
     base_ = initial_.orientation * to_axis(m).conjugate();
+  }
+
+  // Of moments that violate the triangle inequality, m may circulate about the axis of the greatest one much
+  // faster than the body turns. Then psi_rate t and the rest of psi cancel, so what both gain in a half
+  // period is taken from
+  //     psi' = G / I_a + X / (1 + |m_a| / G),    X = (2 T - G^2 / I_a) / G,
+  // whose terms are positive, by the trapezoidal rule: 1 / (1 + (A / G) dn u) has the period 2 K and no pole
+  // with |Im u| < K'.
+  void prepare_slow_turn(Real i_a, Real i_b, Real i_c) {
+    if (i_a < i_b) return;
+    const Vector3& m = initial_.angular_momentum;
+    const Real excess = m[b_] * (m[b_] / magnitude_) * ((i_a - i_b) / (i_a * i_b)) +
+                        m[c_] * (m[c_] / magnitude_) * ((i_a - i_c) / (i_a * i_c));
+    const Real quarter = jacobi_.quarter_period();
+    turns_slowly_ = std::max(psi_rate_, lambda_) > 4 * (magnitude_ / i_a + excess) && quarter < 20;
+    if (!turns_slowly_) return;
+    const Real pi = boost::math::constants::pi<Real>();
+    const Real log_nome = jacobi_.hyperbolic() ? pi * pi / jacobi_.log_nome() : jacobi_.log_nome();
+    const Real nodes = std::floor(std::log(std::numeric_limits<Real>::epsilon()) / (2 * log_nome)) + 2;
+    Real mean = 0;
+    for (Real node = 0; node < nodes; node += 1)
+      mean += 1 / (1 + jacobi_.at((node + Real(0.5)) / nodes * quarter).dn / g_over_a_);
+    psi_half_period_ = (magnitude_ / i_a + excess * (mean / nodes)) * (2 * quarter / lambda_);
+    greatest_rate_ = magnitude_ / i_a + std::abs(amplitude_[2]) / i_c;
   }
 
   // In double precision psi is taken from a theta function, at half the cost of the integral of the third
@@ -324,7 +351,10 @@ class ExactFreeTop {
   Real lambda_{}, u0_{};
   Vector3 amplitude_ = Vector3::Zero();
   Real r2_{}, b_over_c_{1}, g_over_a_{1};
-  Real psi_sign_{1}, psi_rate_{}, psi_start_{}, psi_half_period_{};
+  Real psi_sign_{1}, psi_rate_{}, psi_start_{};
+  Real psi_half_period_{};  // what psi gains in a half period of m; without psi_rate t unless turns_slowly_
+  bool turns_slowly_ = false;
+  Real greatest_rate_{};  // that rounding errors grow with: of psi and u, or of the body
   ThetaArgument<Real> theta_;
   Real theta_slope_{};
   Quaternion base_ = Quaternion::Identity();

@@ -186,6 +186,13 @@ class RigidBody {
     return {state.orientation.toRotationMatrix(), state.angular_momentum};
   }
 
+  /// A bound of its errors against the closed form of the data as given. The attitude is a rounded matrix at
+  /// both ends.
+  std::array<double, 2> closed_form_bound(double t) const requires(!has_moment) {
+    const double bound = free_motion_.value().error_bound(t) + 8.0 * 2.2e-16;
+    return {bound, bound};
+  }
+
   /// The closed form of Lagrange's top in double precision, as an integrator of its own, and why this body is
   /// none; empty if it is. What does not depend on the time is worked out once a body.
   State symmetric_top(double t) const requires std::is_same_v<Load, Gravity> {

@@ -66,6 +66,10 @@ class Ensemble {
       rate = std::max(rate, fastest);
     }
     time_scale_ = rate > 0.0 ? 1.0 / rate : horizon;
+    if constexpr (!has_moment) {
+      motions_.reserve(bodies_.size());
+      for (const Body& body : bodies_) motions_.push_back(motion<double>(body));
+    }
   }
 
   std::size_t bodies() const { return bodies_.size(); }
@@ -187,10 +191,42 @@ class Ensemble {
     return {largest[0], largest[0], largest[1], largest[1]};
   }
 
-  /// Every body by its closed form, in double precision.
-  State closed_form(double t) const requires(!has_moment) { return closed_form_in<double>(t).state; }
+  /// Every body by its closed form, in double precision. What does not depend on the time is worked out once
+  /// a body.
+  State closed_form(double t) const requires(!has_moment) {
+    State state;
+    state.bodies.reserve(bodies_.size());
+    for (const auto& top : motions_) {
+      const auto body = top.at(t);
+      state.bodies.push_back({body.orientation.toRotationMatrix(), body.angular_momentum});
+    }
+    return state;
+  }
+  /// A bound of its errors, the largest of all bodies.
+  std::array<double, 4> closed_form_bound(double t) const requires(!has_moment) {
+    double bound = 0.0;
+    for (const auto& top : motions_) bound = std::max(bound, top.error_bound(t));
+    bound += 8.0 * 2.2e-16;
+    return {bound, bound, bound, bound};
+  }
   /// The same in extended precision, as a reference; its bound is the largest of all bodies.
-  Exact<Ensemble> exact(double t) const requires(!has_moment) { return closed_form_in<long double>(t); }
+  Exact<Ensemble> exact(double t) const requires(!has_moment) {
+    using Real = long double;
+    Exact<Ensemble> result{{}, {}};
+    double bound = 0.0;
+    for (const Body& body : bodies_) {
+      const auto top = motion<Real>(body);
+      const auto state = top.at(Real(t));
+      const Eigen::Quaterniond rounded = state.orientation.normalized().template cast<double>();
+      const double coefficients[4] = {rounded.w(), rounded.x(), rounded.y(), rounded.z()};
+      result.state.bodies.push_back(
+          {rigid_body::homogeneous_matrix(coefficients), state.angular_momentum.template cast<double>()});
+      bound = std::max(bound, static_cast<double>(top.error_bound(Real(t))));
+    }
+    // The state is rounded to double, and so was the initial one: a unit in the last place each.
+    result.bound.fill(bound + 8.0 * 2.2e-16);
+    return result;
+  }
 
  private:
   /// The largest and the root mean square of some numbers that are not negative; not finite if one is not.
@@ -205,24 +241,10 @@ class Ensemble {
   };
 
   template <class Real>
-  Exact<Ensemble> closed_form_in(double t) const requires(!has_moment) {
-    Exact<Ensemble> result{{}, {}};
-    double bound = 0.0;
-    for (const Body& body : bodies_) {
-      const Eigen::Quaternion<Real> q =
-          rigid_body::unit_quaternion(body.attitude).template cast<Real>().normalized();
-      const rigid_body::ExactFreeTop<Real> top(body.inertia.cast<Real>(), q,
-                                               body.angular_momentum.cast<Real>());
-      const auto state = top.at(Real(t));
-      const Eigen::Quaterniond rounded = state.orientation.normalized().template cast<double>();
-      const double coefficients[4] = {rounded.w(), rounded.x(), rounded.y(), rounded.z()};
-      result.state.bodies.push_back(
-          {rigid_body::homogeneous_matrix(coefficients), state.angular_momentum.template cast<double>()});
-      bound = std::max(bound, static_cast<double>(top.error_bound(Real(t))));
-    }
-    // The state is rounded to double, and so was the initial one: a unit in the last place each.
-    result.bound.fill(bound + 8.0 * 2.2e-16);
-    return result;
+  static rigid_body::ExactFreeTop<Real> motion(const Body& body) {
+    return {body.inertia.cast<Real>(),
+            rigid_body::unit_quaternion(body.attitude).template cast<Real>().normalized(),
+            body.angular_momentum.cast<Real>()};
   }
 
   double energy_of(std::size_t i, const Eigen::Matrix3d& A, const Eigen::Vector3d& m) const {
@@ -235,6 +257,7 @@ class Ensemble {
   Execution execution_;
   double horizon_;
   std::vector<double> momentum_scales_, energies_;
+  std::vector<rigid_body::ExactFreeTop<double>> motions_;  // of free bodies
   double time_scale_ = 1.0;
 };
 

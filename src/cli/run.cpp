@@ -85,6 +85,9 @@ void print(const Request& request, const SceneStudy& study) {
                                                 : fmt::format("{:.4e}", row.error[k]),
                              metric.unit == "1" ? "(relative)" : metric.unit));
   }
+  for (std::size_t k = 0; k < result.own_bound.size(); ++k)
+    say(request, fmt::format("  own bound {:<10} {}", model.metrics()[k].name,
+                             output::at_most(result.own_bound[k], 2)));
   for (const InvariantSummary& invariant : row.invariants)
     say(request, fmt::format("  drift {:<20} at most {:.3e} of {:.6g}, slope {:.2e} 1/s", invariant.info.name,
                              invariant.max_drift, invariant.info.scale, invariant.slope));

@@ -130,6 +130,8 @@ Json run_json(const Scene& scene, const Row& row) {
       json["below_bound"][name] = static_cast<bool>(row.below_bound[k]);
     }
   }
+  for (std::size_t k = 0; k < result.own_bound.size(); ++k)
+    json["own_error_bound"][std::string(model.metrics()[k].name)] = finite_or_null(result.own_bound[k]);
   if (!result.samples.empty()) json["series"] = series_json(model, result);
   json["cost"] = cost_json(result.cost);
   json["cpu_seconds"] = cpu_json(row.timing);
