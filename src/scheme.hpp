@@ -70,6 +70,7 @@ struct SchemeInfo {
   std::array<DeclaredOrder, 2> momentum_orders{};
   /// Range of SchemeOptions::spectral_radius; none where the scheme does not take it.
   std::optional<std::array<double, 2>> spectral_radii{};
+  bool linear_solvers = false;  ///< takes SchemeOptions::linear_solver
 
   constexpr std::optional<double> order_for(std::string_view load_class) const {
     for (const DeclaredOrder& declared : orders)

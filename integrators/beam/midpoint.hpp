@@ -49,6 +49,7 @@ struct BeamMidpoint : MidpointStep<Turning::documented> {
       .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_momentum = true,
+      .linear_solvers = true,
   };
 };
 
@@ -64,6 +65,7 @@ struct BeamEnergyMomentum : MidpointStep<Turning::cayley> {
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,
+      .linear_solvers = true,
   };
 };
 

@@ -89,11 +89,15 @@ long whole_number(const std::string& option, const std::string& text, long most)
   return value;
 }
 
+/// Of an adaptive solver; below, errors that it estimates are roundoff.
+constexpr double least_tolerance = 1e-15;
+
 StudyOptions study_options(const Request& request) {
   StudyOptions options;
-  const auto tolerance = [](const std::string& option, const std::string& text, const std::string& expected) {
+  const auto tolerance = [](const std::string& option, const std::string& text, const std::string& expected,
+                            double least) {
     const double value = positive_number(option, text, expected);
-    if (value >= 1.0) refuse(option, text, expected);
+    if (value < least || value >= 1.0) refuse(option, text, expected);
     return value;
   };
   const auto each = [](const std::string& option, const std::string& list, auto&& read) {
@@ -122,12 +126,18 @@ StudyOptions study_options(const Request& request) {
     return positive_number(option, text, "positive numbers (s) with one comma between them");
   });
   options.tols = each("--tols", request.tols, [&](const std::string& option, const std::string& text) {
-    return tolerance(option, text, "tolerances between 0 and 1 with one comma between them");
+    return tolerance(
+        option, text,
+        fmt::format(
+            "tolerances from {:g} (about the precision of numbers) to below 1, with one comma between them",
+            least_tolerance),
+        least_tolerance);
   });
-  const std::string tolerance_text = "a tolerance between 0 and 1";
+  const std::string tolerance_text =
+      fmt::format("a tolerance from {:g} (about the precision of numbers) to below 1", least_tolerance);
   if (!request.step.empty())
     options.steps = {positive_number("--step", request.step, "a positive number (s)")};
-  if (!request.tol.empty()) options.tols = {tolerance("--tol", request.tol, tolerance_text)};
+  if (!request.tol.empty()) options.tols = {tolerance("--tol", request.tol, tolerance_text, least_tolerance)};
   if (!request.samples.empty())
     options.samples = static_cast<int>(whole_number("--samples", request.samples, 1'000'000));
   if (!request.max_steps.empty())
@@ -135,7 +145,8 @@ StudyOptions study_options(const Request& request) {
   if (!request.time_limit.empty())
     options.time_limit = positive_number("--time-limit", request.time_limit, "a positive number (s)");
   if (!request.newton_tol.empty())
-    options.scheme.newton_tol = tolerance("--newton-tol", request.newton_tol, tolerance_text);
+    options.scheme.newton_tol =
+        tolerance("--newton-tol", request.newton_tol, "a tolerance between 0 and 1", 0.0);
   if (!request.spectral_radius.empty()) {
     const std::string expected = "a number from 0 to 1";
     const double value = number("--spectral-radius", request.spectral_radius, expected);
@@ -259,6 +270,16 @@ void write_csv(const Request& request, const std::vector<output::Table>& tables)
 
 void check_scheme_options(const Context& context, const std::vector<Scene>& scenes,
                           const StudyOptions& options) {
+  if (!context.request.linear_solver.empty()) {
+    bool used = false;
+    for (const Scene& scene : scenes)
+      for (const SchemeInfo* scheme : select(context.catalogue, scene, options))
+        used = used || scheme->linear_solvers;
+    if (!used)
+      throw UsageError(
+          fmt::format("--linear-solver: found '{}', expected nothing because no chosen integrator takes it",
+                      context.request.linear_solver));
+  }
   if (!options.scheme.spectral_radius) return;
   const std::string& text = context.request.spectral_radius;
   for (const Scene& scene : scenes) {

@@ -14,20 +14,28 @@ bool usable(const WorkPoint& point) { return std::isfinite(point.error) && std::
 }  // namespace
 
 std::optional<LevelCost> level_cost(std::span<const WorkPoint> curve, double error) {
-  std::size_t first = curve.size();  // the loosest setting that counts
-  double envelope = 0.0;             // largest error of the settings that count
-  while (first > 0 && usable(curve[first - 1]) && curve[first - 1].error <= error) {
-    --first;
-    envelope = std::max(envelope, curve[first].error);
+  std::optional<LevelCost> least;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    double envelope = 0.0;  // largest error of the settings that have to reach the level
+    bool counts = true;
+    for (std::size_t k = i; k < std::min(i + 3, curve.size()); ++k) {
+      counts = counts && usable(curve[k]) && curve[k].error <= error;
+      envelope = std::max(envelope, curve[k].error);
+    }
+    if (!counts) continue;
+    LevelCost found{curve[i].cost, i == 0};
+    if (i > 0 && !(curve[i - 1].error <= error)) {
+      const WorkPoint& looser = curve[i - 1];
+      if (positive(envelope) && positive(looser.error) && positive(found.cost) && positive(looser.cost)) {
+        const double part = std::log(error / envelope) / std::log(looser.error / envelope);
+        found.cost = std::min(found.cost, found.cost * std::pow(looser.cost / found.cost, part));
+      } else {
+        found.upper_bound = true;
+      }
+    }
+    if (!least || found.cost < least->cost) least = found;
   }
-  if (first == curve.size()) return std::nullopt;
-  const double cost = curve[first].cost;
-  if (first == 0) return LevelCost{cost, true};
-  const WorkPoint& looser = curve[first - 1];
-  if (!positive(envelope) || !positive(looser.error) || !positive(cost) || !positive(looser.cost))
-    return LevelCost{cost, true};
-  const double part = std::log(error / envelope) / std::log(looser.error / envelope);
-  return LevelCost{cost * std::pow(looser.cost / cost, part), false};
+  return least;
 }
 
 std::optional<double> cost_at(std::span<const WorkPoint> curve, double error) {

@@ -18,11 +18,12 @@ struct LevelCost {
   bool upper_bound = false;  ///< nothing looser is there to interpolate with: it costs no more than this
 };
 
-/// Cost of reaching `error`, interpolated in log error and log cost on a curve ordered from the loosest
-/// setting to the tightest. A setting counts only if it and every tighter one reach the level: a lucky zero
-/// of the error does not. Where nothing looser is there to interpolate with, the cost of the loosest setting
-/// that counts, which is an upper bound. Nothing if no setting counts; nothing is ever extrapolated. Leave
-/// out runs stopped by a limit of time or steps: they say nothing.
+/// Cost of reaching `error` on a curve ordered from the loosest setting to the tightest: the least of all
+/// settings that count. A setting counts if it and the two next tighter ones, as far as there are any, reach
+/// the level: a lucky zero of the error does not. Where the next looser setting misses the level, the cost is
+/// interpolated between both in log error and log cost, so it never grows with `error`. Nothing if no setting
+/// counts; nothing is ever extrapolated. Leave out runs stopped by a limit of time or steps: they say
+/// nothing.
 std::optional<LevelCost> level_cost(std::span<const WorkPoint> curve, double error);
 
 /// The same without saying whether it is an upper bound.

@@ -21,16 +21,29 @@ std::vector<Setting> work_ladder(const Scene& scene, const SchemeInfo& scheme, c
                   default_tols(options.quick));
 }
 
-CostRow cost_of(const Comparison& study, const SchemeInfo& scheme) {
-  std::vector<WorkPoint> seconds, evaluations;
+/// Errors against one of the costs; not what a limit stopped.
+template <class CostOf>
+std::vector<WorkPoint> curve_of(const Comparison& study, const SchemeInfo& scheme, CostOf&& cost_of_row) {
+  std::vector<WorkPoint> curve;
   for (const Row& row : study.rows) {
     if (row.scheme != &scheme || row.result.status == Status::time_limit ||
         row.result.status == Status::step_limit)
       continue;
-    const double error = row.error.empty() ? std::nan("") : row.error[0];
-    if (row.timing) seconds.push_back({error, row.timing->median});
-    if (row.evaluations() > 0) evaluations.push_back({error, static_cast<double>(row.evaluations())});
+    const std::optional<double> cost = cost_of_row(row);
+    if (cost) curve.push_back({row.error.empty() ? std::nan("") : row.error[0], *cost});
   }
+  return curve;
+}
+std::optional<double> seconds_of(const Row& row) {
+  return row.timing ? std::optional(row.timing->median) : std::nullopt;
+}
+std::optional<double> evaluations_of(const Row& row) {
+  return row.evaluations() > 0 ? std::optional(static_cast<double>(row.evaluations())) : std::nullopt;
+}
+
+CostRow cost_of(const Comparison& study, const SchemeInfo& scheme) {
+  const auto seconds = curve_of(study, scheme, seconds_of),
+             evaluations = curve_of(study, scheme, evaluations_of);
   CostRow cost{&scheme, {}, {}};
   for (double level : study.levels) {
     cost.seconds.push_back(level_cost(seconds, level));
@@ -42,11 +55,8 @@ CostRow cost_of(const Comparison& study, const SchemeInfo& scheme) {
 /// Sought at twenty levels a decade.
 std::vector<Cheapest> cheapest_of(const Comparison& study) {
   std::vector<Cheapest> list;
-  std::vector<std::vector<WorkPoint>> curves(study.costs.size());
-  for (std::size_t s = 0; s < curves.size(); ++s)
-    for (const Row& row : study.rows)
-      if (row.scheme == study.costs[s].scheme && row.timing)
-        curves[s].push_back({row.error.empty() ? std::nan("") : row.error[0], row.timing->median});
+  std::vector<std::vector<WorkPoint>> curves;
+  for (const CostRow& cost : study.costs) curves.push_back(curve_of(study, *cost.scheme, seconds_of));
   for (int k = 20; k <= 240; ++k) {
     const double level = std::pow(10.0, -0.05 * k);
     const SchemeInfo* best = nullptr;

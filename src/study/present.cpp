@@ -110,6 +110,17 @@ std::string reference_line(const SceneStudy& study) {
                      bounds);
 }
 
+void name_linear_solver(const SceneStudy& study, const std::vector<const SchemeInfo*>& schemes,
+                        Table& table) {
+  if (study.rows.empty()) return;
+  const LinearSolver solver = study.rows.front().options.linear_solver;
+  if (solver == LinearSolver::block) return;
+  table.columns.insert(table.columns.begin() + 1, {"linear_solver", "linear solver", Align::left});
+  for (std::size_t k = 0; k < table.rows.size(); ++k)
+    table.rows[k].insert(table.rows[k].begin() + 1,
+                         schemes[k]->linear_solvers ? Cell(std::string(to_string(solver))) : Cell{});
+}
+
 Table runs_table(const SceneStudy& study, const std::string& caption) {
   Table table;
   table.caption = caption;
@@ -155,6 +166,9 @@ Table runs_table(const SceneStudy& study, const std::string& caption) {
     cells.push_back(output::number_cell(result.t, 6));
     table.rows.push_back(std::move(cells));
   }
+  std::vector<const SchemeInfo*> schemes;
+  for (const Row& row : study.rows) schemes.push_back(row.scheme);
+  name_linear_solver(study, schemes, table);
   table.notes.push_back(reference_line(study));
   if (unstable) table.notes.push_back(unstable_note);
   return table;
@@ -229,6 +243,9 @@ Table costs_table(const Comparison& study) {
     }
     table.rows.push_back(std::move(cells));
   }
+  std::vector<const SchemeInfo*> schemes;
+  for (const CostRow& cost : study.costs) schemes.push_back(cost.scheme);
+  name_linear_solver(study, schemes, table);
   table.notes.push_back(reference_line(study));
   if (!study.cheapest.empty()) {
     std::string text = "cheapest in CPU time, from an error of 0.1 down:";

@@ -15,9 +15,14 @@ std::string reference_line(const SceneStudy& study);
 
 /// How the cost of a level is found, for a note.
 inline constexpr const char* levels_note =
-    "a setting counts only if it and all tighter ones reach the level; log-log between neighbouring "
-    "settings, "
+    "the cheapest setting that counts: it and the next two tighter ones reach the level; log-log to the next "
+    "looser one, "
     "≤: already the loosest one reaches it; — not reached";
+
+/// Inserts a column with the linear solver that was asked for, where it is not the default; `schemes` are
+/// those of the rows.
+void name_linear_solver(const SceneStudy& study, const std::vector<const SchemeInfo*>& schemes,
+                        output::Table& table);
 
 /// The scheme's position in the catalogue, so that it looks the same in every figure.
 int style_of_scheme(const Catalogue& catalogue, const SchemeInfo& scheme);

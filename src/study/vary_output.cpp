@@ -120,8 +120,10 @@ Table varied_costs_table(const std::vector<Comparison>& variants, const Variatio
     table.columns.push_back({"cpu_us_at_" + variation.values[of], variation.values[of]});
     table.columns.push_back({"rhs_at_" + variation.values[of], "(rates)"});
   }
+  std::vector<const SchemeInfo*> schemes;
   for (const SchemeInfo* scheme : varied_schemes(variants))
     for (const std::size_t level : {0U, 2U, 4U}) {
+      schemes.push_back(scheme);
       std::vector<Cell> cells{std::string(scheme->name),
                               output::number_cell(variants.front().levels[level], 1)};
       for (const Comparison& study : variants) {
@@ -132,6 +134,7 @@ Table varied_costs_table(const std::vector<Comparison>& variants, const Variatio
       }
       table.rows.push_back(std::move(cells));
     }
+  name_linear_solver(variants.front(), schemes, table);
   note_missing_references(variants, variation, table);
   table.notes.emplace_back(levels_note);
   return table;

@@ -10,7 +10,8 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
     Words arguments;
     std::string message;
   };
-  const std::string step = "a positive number (s)", tol = "a tolerance between 0 and 1";
+  const std::string step = "a positive number (s)",
+                    tol = "a tolerance from 1e-15 (about the precision of numbers) to below 1";
   const std::string samples = "a whole number from 1 to 1000000, in digits";
   const auto with = [](const Words& more) {
     Words words{"run", "s.toml", "--integrator", "rkmk4"};
@@ -129,6 +130,8 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
        "--tol: found --step, expected --tol X because cvode-bdf chooses its own steps"},
       {{"run", "s.toml", "--integrator", "cvode-bdf", "--tol", "1"}, "--tol: found '1', expected " + tol},
       {{"run", "s.toml", "--integrator", "cvode-bdf", "--tol", "0"}, "--tol: found '0', expected " + tol},
+      {{"run", "s.toml", "--integrator", "ida-bdf", "--tol", "1e-300"},
+       "--tol: found '1e-300', expected " + tol},
       {{"run", "s.toml", "--integrator", "exact-free-top", "--step", "0.1"},
        "--step: found --step, expected neither --step nor --tol because exact-free-top is a closed form"},
       {{"drift", "s.toml", "--integrators", "rkmk4", "--step", "0.1", "--steps", "0.1,0.2"},
@@ -142,7 +145,9 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {converge({"--steps", "0.1,0.10"}), "--steps: found '0.10' twice, expected every value once"},
       {converge({"--steps", "0.1,1e-20"}), "--steps: found '1e-20', expected at least 1e-15 s, 1 s / 1e15"},
       {converge({"--tols", "1e-3,2"}),
-       "--tols: found '2', expected tolerances between 0 and 1 with one comma between them"},
+       "--tols: found '2', expected tolerances from 1e-15 (about the precision of numbers) to below 1, with "
+       "one "
+       "comma between them"},
       {converge({"--integrators", "cvode-adams,exact-free-top", "--steps", "0.1"}),
        "--steps: found '0.1', expected --tols because no chosen integrator takes equal steps"},
       {converge({"--integrators", "rkmk4,munjiza", "--tols", "1e-3"}),
@@ -186,6 +191,8 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
        "--spectral-radius: found '0.4', expected 0.5 to 1 for beam-hht"},
       {{"converge", "soft-beam", "--integrators", "beam-hht", "--modified-newton=1"},
        "--modified-newton: found the value '1', expected none"},
+      {{"compare", "soft-beam", "--integrators", "beam-trapezoidal", "--linear-solver", "klu"},
+       "--linear-solver: found 'klu', expected nothing because no chosen integrator takes it"},
       {{"converge", "soft-beam", "--integrators", "beam-midpoint", "--linear-solver", "gauss"},
        "--linear-solver: found 'gauss', expected block, band, lapack, klu or sparselu"},
       // Files.

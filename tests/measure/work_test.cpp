@@ -34,7 +34,7 @@ TEST_CASE("measure: a level reached by the loosest setting costs what that setti
   CHECK_FALSE(gnomon::level_cost(curve, 0.99e-7));
 }
 
-TEST_CASE("measure: a setting counts only if all tighter ones reach the level too") {
+TEST_CASE("measure: a setting counts only if the two next tighter ones reach the level too") {
   // The second setting is a lucky one: the third, tighter, is worse.
   const std::vector<WorkPoint> curve{{1e-2, 1.0}, {1e-6, 2.0}, {1e-4, 4.0}, {1e-5, 8.0}};
   const auto at_bottom = cost_at(curve, 1e-5);
@@ -48,6 +48,39 @@ TEST_CASE("measure: a setting counts only if all tighter ones reach the level to
   const auto between = cost_at(curve, 1e-3);
   REQUIRE(between);
   CHECK(std::abs(*between - std::sqrt(2.0)) <= 1e-12);
+  // Two lucky ones do not count, three do, whatever comes after them.
+  const double steps[] = {1.0, 2.0, 4.0, 8.0, 16.0};
+  const auto with_errors = [&](std::vector<double> errors) {
+    std::vector<WorkPoint> points;
+    for (std::size_t k = 0; k < errors.size(); ++k) points.push_back({errors[k], steps[k]});
+    return points;
+  };
+  CHECK(cost_at(with_errors({1e-5, 1e-5, 1e-2, 1e-5, 1e-5}), 1e-4) > 4.0);
+  CHECK(cost_at(with_errors({1e-5, 1e-5, 1e-5, 1e-2, 1e-2}), 1e-4) == 1.0);
+}
+
+TEST_CASE("measure: a looser error never costs more than a tighter one") {
+  // The loosest settings need more than tighter ones, as where Newton's iteration hardly converges.
+  const std::vector<WorkPoint> stiff{
+      {8e-3, 5220.0}, {1e-4, 700.0}, {5e-7, 333.0}, {1e-7, 400.0}, {1e-8, 800.0}};
+  CHECK(cost_at(stiff, 1e-2) == 333.0);
+  CHECK(cost_at(stiff, 1e-6) == 333.0);
+  REQUIRE(gnomon::level_cost(stiff, 1e-2));
+  CHECK_FALSE(gnomon::level_cost(stiff, 1e-2)->upper_bound);
+  // Whatever the errors and costs are.
+  unsigned seed = 1;
+  const auto random = [&] { return seed = 1664525u * seed + 1013904223u, seed / 4294967296.0; };
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<WorkPoint> curve;
+    for (int k = 0; k < 8; ++k)
+      curve.push_back({std::pow(10.0, -1.0 * k - 3.0 * random()), std::pow(10.0, 2.0 * random())});
+    double before = std::numeric_limits<double>::infinity();
+    for (int k = 60; k >= 0; --k)
+      if (const auto cost = cost_at(curve, std::pow(10.0, -0.2 * k))) {
+        CHECK(*cost <= before * (1.0 + 1e-12));
+        before = *cost;
+      }
+  }
 }
 
 TEST_CASE("measure: failed settings and zero errors do not break the cost curve") {
