@@ -315,9 +315,11 @@ std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const 
       if (trace.t[k] < info.since) continue;
       const double* value = trace.values.data() + k * width + offset;
       if (summary.initial.empty()) summary.initial.assign(value, value + size);
+      // Divided by the scale before it is squared, which very small or large values would not survive.
       double square = 0.0;
-      for (std::size_t i = 0; i < size; ++i) square += std::pow(value[i] - summary.initial[i], 2);
-      const double drift = (size == 1 ? value[0] - summary.initial[0] : std::sqrt(square)) / info.scale;
+      for (std::size_t i = 0; i < size; ++i)
+        square += std::pow((value[i] - summary.initial[i]) / info.scale, 2);
+      const double drift = size == 1 ? (value[0] - summary.initial[0]) / info.scale : std::sqrt(square);
       summary.times.push_back(trace.t[k]);
       summary.drift.push_back(drift);
       summary.final.assign(value, value + size);
