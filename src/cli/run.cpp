@@ -112,7 +112,7 @@ int run(Context& context) {
   SceneStudy study;
   study.scene = std::move(load_scenes(context).front());
   if (options.integrators.empty()) throw UsageError("--integrator: found nothing, " + one_name);
-  const SchemeInfo& scheme = *select(context.catalogue, study.scene, options).front();
+  const SchemeInfo& scheme = *select(context.catalogue, study.scene, options, "--integrator").front();
   const Setting setting = read_setting(scheme, options);
   check_scheme_options(context, {study.scene}, options);
   warn({study.scene});
