@@ -20,6 +20,7 @@ struct BeamEnergyMomentum4 : MidpointStep<Turning::cayley> {
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,
+      .uses = stepper_uses,
   };
 
   template <BeamForm M>

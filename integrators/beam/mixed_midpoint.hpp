@@ -94,6 +94,7 @@ struct BeamMixedMidpoint : MidpointStep<Turning::mixed> {
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,
+      .uses = stepper_uses,
   };
 };
 
