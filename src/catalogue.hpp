@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <typeindex>
@@ -29,6 +30,8 @@ struct ModelEntry {
   std::string_view summary;
   std::string_view citation;
   ParsedModel (*read)(Section& root, double t_end);
+  std::span<const std::string_view>
+      loads{};  ///< the kinds of `[load]`, where a scene has one load by its kind
 };
 
 /// One valid pair of scheme and model type.

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <thread>
 
+#include "src/git_commit.hpp"
 #include "src/measure/core.hpp"
 #include "src/measure/timing.hpp"
 
@@ -28,14 +29,6 @@ std::string cpu_name() {
   for (std::string line; std::getline(in, line);)
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   return "unknown";
-}
-
-std::string git_commit() {
-  const std::string git = std::string(GNOMON_SOURCE_DIR) + "/.git/";
-  const std::string head = first_line(git + "HEAD");
-  if (!head.starts_with("ref: ")) return head.empty() ? "unknown" : head.substr(0, 12);
-  const std::string commit = first_line(git + head.substr(5));
-  return commit.empty() ? "unknown" : commit.substr(0, 12);
 }
 
 std::string compiler() {
@@ -92,7 +85,7 @@ nlohmann::ordered_json environment(const Catalogue& catalogue) {
         {"version", library.version}, {"optimised", *library.optimised}, {"build", library.build}};
   }
   json["eigen"] = fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
-  json["git"] = git_commit();
+  json["git"] = git_commit(GNOMON_SOURCE_DIR);
   json["date"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return json;
 }
@@ -112,7 +105,8 @@ std::vector<Finding> examine(const Catalogue& catalogue) {
   const std::size_t thread_may_use = allowed_cores().size();
   std::vector<Finding> findings;
   const auto add = [&](bool good, std::string text) { findings.push_back({good, std::move(text)}); };
-  add(true, fmt::format("gnomon {}, commit {}, {}", gnomon_version, git_commit(), compiler()));
+  add(true,
+      fmt::format("gnomon {}, commit {}, {}", gnomon_version, git_commit(GNOMON_SOURCE_DIR), compiler()));
   const std::string flags = GNOMON_FLAGS;
   const bool optimised = flags.find("-O2") != std::string::npos || flags.find("-O3") != std::string::npos;
   add(optimised,

@@ -64,7 +64,7 @@ std::string Section::full(std::string_view key) const {
   return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
-std::string Section::where(std::string_view key) const {
+std::string Section::where(std::string_view key, std::optional<std::size_t> entry) const {
   const std::string path = full(key);
   const auto within = [](const std::string& inner, const std::string& outer) {
     return inner == outer || inner.starts_with(outer + ".");
@@ -78,6 +78,8 @@ std::string Section::where(std::string_view key) const {
   }
   if (option) return fmt::format("{}: {}", *option, path);
   const toml::node* node = table_->get(key);
+  if (const toml::array* list = node && entry ? node->as_array() : nullptr)
+    if (const toml::node* one = list->get(*entry)) node = one;
   toml::source_index line = node ? node->source().begin.line : table_->source().begin.line;
   return line > 0 ? fmt::format("{}:{}: {}", source_->file, line, path)
                   : fmt::format("{}: {}", source_->file, path);
@@ -85,6 +87,10 @@ std::string Section::where(std::string_view key) const {
 
 void Section::fail(std::string_view key, std::string_view found, std::string_view expected) const {
   throw UsageError(fmt::format("{}: found {}, expected {}", where(key), found, expected));
+}
+
+void Section::refuse(std::string_view key, std::string_view why, std::optional<std::size_t> entry) const {
+  throw UsageError(fmt::format("{}: {}", where(key, entry), why));
 }
 
 std::string Section::shown(std::string_view key) const {

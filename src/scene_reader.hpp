@@ -73,6 +73,9 @@ class Section {
 
   /// Reports a value of this table that is wrong for a reason only the model knows.
   [[noreturn]] void fail(std::string_view key, std::string_view found, std::string_view expected) const;
+  /// The same in words of another kind, at one entry of a list if its number is given.
+  [[noreturn]] void refuse(std::string_view key, std::string_view why,
+                           std::optional<std::size_t> entry = std::nullopt) const;
   /// The path of another file that the scene names: relative to the scene's folder.
   std::string beside(const std::string& name) const;
   /// The value of a key as it stands in the file, shortened for messages.
@@ -82,7 +85,7 @@ class Section {
   const toml::node* find(std::string_view key);
   const toml::node& require(std::string_view key, std::string_view expected);
   double finite(const toml::node& node, std::string_view key, std::string_view expected) const;
-  std::string where(std::string_view key) const;
+  std::string where(std::string_view key, std::optional<std::size_t> entry = std::nullopt) const;
   std::string full(std::string_view key) const;
   std::string nearest_absent(std::string_view name, const std::vector<std::string>& keys) const;
 

@@ -45,6 +45,11 @@ struct SchemeOptions {
   LinearSolver linear_solver = LinearSolver::block;
 };
 
+/// Which of the SchemeOptions a scheme uses, besides the spectral radius; the others do not concern it.
+struct OptionUse {
+  bool newton_tol = false, modified_newton = false, linear_solver = false;
+};
+
 /// The order of the error of a scheme on models of one load class.
 struct DeclaredOrder {
   std::string_view load_class;
@@ -70,7 +75,7 @@ struct SchemeInfo {
   std::array<DeclaredOrder, 2> momentum_orders{};
   /// Range of SchemeOptions::spectral_radius; none where the scheme does not take it.
   std::optional<std::array<double, 2>> spectral_radii{};
-  bool linear_solvers = false;  ///< takes SchemeOptions::linear_solver
+  OptionUse uses{};
 
   constexpr std::optional<double> order_for(std::string_view load_class) const {
     for (const DeclaredOrder& declared : orders)

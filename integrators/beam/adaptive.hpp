@@ -120,7 +120,7 @@ struct BeamEnergyMomentumAdaptive {
       .stepping = Stepping::adaptive,
       .conserves_energy = true,
       .conserves_momentum = true,
-      .linear_solvers = true,
+      .uses = {.newton_tol = true, .modified_newton = true, .linear_solver = true},
   };
   template <BeamForm M>
   static std::unique_ptr<BeamStepsSystem> system(const M& model) {

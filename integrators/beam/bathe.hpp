@@ -32,6 +32,7 @@ struct BeamBathe : NodalScheme<BatheMotion> {
           "Computers & Structures 85 (2007) 437-445, there split at h/2",
       .form = "beam",
       .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
+      .uses = nodal_uses,
   };
 };
 

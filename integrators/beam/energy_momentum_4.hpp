@@ -20,7 +20,7 @@ struct BeamEnergyMomentum4 : MidpointStep<Turning::cayley> {
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,
-      .linear_solvers = true,
+      .uses = stepper_uses,
   };
 
   template <BeamForm M>

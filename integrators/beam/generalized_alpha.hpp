@@ -54,6 +54,7 @@ struct BeamTrapezoidal : NodalScheme<TrapezoidalMotion> {
       .form = "beam",
       .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
+      .uses = nodal_uses,
   };
 };
 
@@ -66,6 +67,7 @@ struct BeamGeneralizedAlpha : NodalScheme<ChungHulbertMotion> {
       .form = "beam",
       .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .spectral_radii = {{0.0, 1.0}},
+      .uses = nodal_uses,
   };
 };
 
@@ -78,6 +80,7 @@ struct BeamHht : NodalScheme<HhtMotion> {
       .form = "beam",
       .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .spectral_radii = {{0.5, 1.0}},
+      .uses = nodal_uses,
   };
 };
 

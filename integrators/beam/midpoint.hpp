@@ -35,6 +35,9 @@ struct MidpointStep {
   }
 };
 
+/// Of all schemes on Stepper.
+inline constexpr OptionUse stepper_uses{.newton_tol = true, .modified_newton = true, .linear_solver = true};
+
 inline constexpr std::string_view midpoint_citation =
     "the planar beam of the velocity-based formulation of E. and D. Zupan, Nonlinear Dynamics 95 (2019) "
     "1379-1394; working note, sections on the numerical computation and the linearisation";
@@ -49,7 +52,7 @@ struct BeamMidpoint : MidpointStep<Turning::documented> {
       .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_momentum = true,
-      .linear_solvers = true,
+      .uses = stepper_uses,
   };
 };
 
@@ -65,7 +68,7 @@ struct BeamEnergyMomentum : MidpointStep<Turning::cayley> {
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,
-      .linear_solvers = true,
+      .uses = stepper_uses,
   };
 };
 

@@ -94,7 +94,7 @@ struct BeamMixedMidpoint : MidpointStep<Turning::mixed> {
       .reversible = true,
       .conserves_energy = true,
       .conserves_momentum = true,
-      .linear_solvers = true,
+      .uses = stepper_uses,
   };
 };
 

@@ -5,6 +5,9 @@
 
 namespace gnomon::beam {
 
+/// Of implicit schemes on nodal values; they have one way to solve linear systems.
+inline constexpr OptionUse nodal_uses{.newton_tol = true, .modified_newton = true};
+
 /// A scheme on nodal values, the same for elements of all orders. `Motion` is made of a NodalBeam, u, v and
 /// SchemeOptions; it has a NodalMotion `nodal` and `step(t, h)`.
 template <class Motion>

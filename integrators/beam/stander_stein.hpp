@@ -64,7 +64,7 @@ struct BeamStanderStein : MidpointStep<Turning::stander_stein> {
       .orders = {{{"none", 2}, {"dead", 2}, {"follower", 2}}},
       .reversible = true,
       .conserves_energy = true,
-      .linear_solvers = true,
+      .uses = stepper_uses,
   };
 };
 

@@ -99,8 +99,7 @@ ParsedModel read(Section& root, double t_end) {
                     largest, sum - largest));
 
   if (std::optional<Section> load = root.section("load")) {
-    const std::string kind =
-        load->one_of("kind", {"none", "gravity", "space_moment", "body_moment", "attitude_potential"});
+    const std::string kind = load->one_of("kind", {load_kinds.begin(), load_kinds.end()});
     const std::string owner = fmt::format("kind \"{}\"", kind);
     resolved["load"] = {{"kind", kind}};
     if (kind == "gravity") {

@@ -37,15 +37,15 @@ class RigidBody {
   RigidBody(const Vector<double>& inertia, const State& initial, Load load, double horizon)
       : inertia_(inertia), initial_(initial), load_(std::move(load)) {
     const double largest = inertia.maxCoeff(), smallest = inertia.minCoeff();
-    double rate = initial.angular_momentum.cwiseQuotient(inertia).norm();
-    double momentum = initial.angular_momentum.norm();
+    double rate = scaled_norm(initial.angular_momentum.cwiseQuotient(inertia));
+    double momentum = scaled_norm(initial.angular_momentum);
     if constexpr (HasPotential<Load>) {
       const double depth = load_.depth();
       momentum = std::max(momentum, std::sqrt(2.0 * largest * depth));
       rate += std::sqrt(2.0 * depth / smallest);
     } else if constexpr (has_moment) {
-      momentum = std::max(momentum, load_.moment.norm() * horizon);
-      rate = std::max(rate, load_.moment.norm() * horizon / largest);
+      momentum = std::max(momentum, scaled_norm(load_.moment) * horizon);
+      rate = std::max(rate, scaled_norm(load_.moment) * horizon / largest);
     }
     if constexpr (!has_moment)
       if (initial.attitude.allFinite() && std::isfinite(initial.angular_momentum.stableNorm()))
@@ -95,9 +95,11 @@ class RigidBody {
   }
 
   /// Orientation: geodesic angle [rad]. Momentum: |m - m_ref| relative to the larger of |m(0)| and |m_ref|.
+  /// The norms are scaled, as squares of very small or large momenta leave the range of double.
   std::array<double, 2> distance(const State& state, const State& reference) const {
-    const double scale = std::max(initial_.angular_momentum.norm(), reference.angular_momentum.norm());
-    const double difference = (state.angular_momentum - reference.angular_momentum).norm();
+    const double scale =
+        std::max(scaled_norm(initial_.angular_momentum), scaled_norm(reference.angular_momentum));
+    const double difference = scaled_norm(state.angular_momentum - reference.angular_momentum);
     return {geodesic_angle(state.attitude, reference.attitude),
             difference / (scale > 0.0 ? scale : momentum_scale_)};
   }
@@ -139,7 +141,7 @@ class RigidBody {
     if constexpr (std::is_same_v<Load, Free>) {
       *out++ = kinetic;
       for (int k = 0; k < 3; ++k) *out++ = H[k];
-      *out++ = m.norm();
+      *out++ = scaled_norm(m);
     } else if constexpr (std::is_same_v<Load, Gravity>) {
       *out++ = kinetic + load_.potential(A);
       *out++ = H[2];

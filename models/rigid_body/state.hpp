@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace gnomon::rigid_body {
 
@@ -18,6 +19,16 @@ inline Eigen::Matrix3d homogeneous_matrix(const double* q) {
       2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x),   //
       2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z;
   return A;
+}
+
+/// |v|, also where squares of the components would leave the range of double; not finite if one of them is
+/// not. The scaling is by a power of two: elsewhere every digit is that of the plain norm.
+inline double scaled_norm(const Eigen::Vector3d& v) {
+  const double size = v.lpNorm<1>();
+  if (!(size > 0.0) || !std::isfinite(size)) return size;
+  const int exponent = std::ilogb(size);
+  const Eigen::Vector3d scaled = v.unaryExpr([&](double x) { return std::ldexp(x, -exponent); });
+  return std::ldexp(scaled.norm(), exponent);
 }
 
 /// The unit quaternion of an attitude, w >= 0.

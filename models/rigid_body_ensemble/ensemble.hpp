@@ -125,9 +125,10 @@ class Ensemble {
     Spread orientation, momentum;
     for (std::size_t i = 0; i < reference.bodies.size(); ++i) {
       const rigid_body::State &body = state.bodies[i], &exact = reference.bodies[i];
-      const double scale = std::max(bodies_[i].angular_momentum.norm(), exact.angular_momentum.norm());
+      const double scale = std::max(rigid_body::scaled_norm(bodies_[i].angular_momentum),
+                                    rigid_body::scaled_norm(exact.angular_momentum));
       orientation.add(rigid_body::geodesic_angle(body.attitude, exact.attitude));
-      momentum.add((body.angular_momentum - exact.angular_momentum).norm() /
+      momentum.add(rigid_body::scaled_norm(body.angular_momentum - exact.angular_momentum) /
                    (scale > 0.0 ? scale : momentum_scales_[i]));
     }
     return {orientation.largest, orientation.rms(), momentum.largest, momentum.rms()};

@@ -66,7 +66,7 @@ ParsedModel read(Section& root, double t_end) {
                           {"spin_rad_s", list(from.spin)}};
   std::string kind = "none";
   if (std::optional<Section> load = root.section("load")) {
-    kind = load->one_of("kind", {"none", "space_moment", "gravity"});
+    kind = load->one_of("kind", {load_kinds.begin(), load_kinds.end()});
     const std::string owner = fmt::format("kind \"{}\"", kind);
     resolved["load"] = {{"kind", kind}};
     if (kind == "none") {

@@ -25,10 +25,32 @@ namespace fs = std::filesystem;
 /// Every core the program may use.
 int bench_jobs() { return std::max(1, static_cast<int>(allowed_cores().size())); }
 
+/// A study and what files of its parts are called by.
+struct NamedPlan {
+  std::string name;
+  StudyPlan plan;
+};
+
+/// That of a file, or those that are published. Throws UsageError if one cannot be made.
+std::vector<NamedPlan> read_plans(const Context& context, const std::string& study) {
+  std::vector<NamedPlan> plans;
+  const auto add = [&](const std::string& file, const fs::path& name) {
+    plans.push_back({name.string(), read_study(file, &context.catalogue)});
+  };
+  if (!study.empty()) {
+    add(study, fs::path(study).stem());
+    return plans;
+  }
+  for (const std::string& file : context.catalogue.study_files)
+    add(file, fs::path(file).parent_path().filename());
+  return plans;
+}
+
 /// All parts of the published study, from what its store holds and, for `bench`, what is measured anew.
 class Study {
  public:
-  Study(Context& context, RunStore& store, Session session, std::string folder, bool measure)
+  Study(Context& context, RunStore& store, Session session, const std::vector<NamedPlan>& plans,
+        std::string folder, bool measure)
       : context_(context),
         request_(context.request),
         store_(store),
@@ -43,11 +65,7 @@ class Study {
         files_(request_, session_, std::move(folder)),
         maker_(context, runner_, session_, files_) {
     runner_.keep_in(&keeper_);
-    if (!session_.study.empty())
-      maker_.plan(read_study(session_.study), fs::path(session_.study).stem().string(), parts_);
-    else
-      for (const std::string& file : context.catalogue.study_files)
-        maker_.plan(read_study(file), fs::path(file).parent_path().filename().string(), parts_);
+    for (const auto& [name, plan] : plans) maker_.plan(plan, name, parts_);
     // What one looks at first. Its runs serve the other parts, too.
     std::stable_partition(parts_.begin(), parts_.end(),
                           [](const Part& part) { return part.name.ends_with("-scorecard"); });
@@ -144,12 +162,14 @@ int bench(Context& context) {
   const bool own = !request.study.empty() || (request.no_timing && !request.quick);
   const std::string usual = own ? "gnomon-out" : request.quick ? results + "/quick" : results;
   const std::string folder = request.out.empty() ? usual : request.out;
-  if (!request.study.empty()) read_study(request.study);  // refused before anything is written
+  // What cannot be made is refused before anything is written.
+  const std::vector<NamedPlan> plans = read_plans(context, request.study);
+  jobs_of(request);
+  const Session session = session_here(context);
   RunStore store(folder, RunStore::Access::append);
   tell_notes(store);
-  const Session session = session_here(context);
   begin_session(store, session, request.fresh);
-  Study study(context, store, session, folder, true);
+  Study study(context, store, session, plans, folder, true);
   if (!study.make()) {
     std::cerr << fmt::format(
         "gnomon: interrupted; what was measured is kept in {}, the next call goes on from there\n",
@@ -171,7 +191,7 @@ int report(Context& context) {
   RunStore store(folders.front(), RunStore::Access::read);
   tell_notes(store);
   const Session session = session_of(store);
-  Study study(context, store, session, folders.front(), false);
+  Study study(context, store, session, read_plans(context, session.study), folders.front(), false);
   try {
     return study.make() ? done : interrupted;
   } catch (const nlohmann::json::exception& error) {

@@ -25,6 +25,8 @@ namespace fs = std::filesystem;
   throw UsageError(fmt::format("{}: found '{}', expected {}", option, text, expected));
 }
 
+constexpr std::string_view nobody_takes_it = "nothing because no chosen integrator takes it";
+
 double number(const std::string& option, const std::string& text, const std::string& expected) {
   const bool plus = text.starts_with("+") && !text.starts_with("+-");
   double value = 0.0;
@@ -270,32 +272,30 @@ void write_csv(const Request& request, const std::vector<output::Table>& tables)
 
 void check_scheme_options(const Context& context, const std::vector<Scene>& scenes,
                           const StudyOptions& options) {
-  if (!context.request.linear_solver.empty()) {
-    bool used = false;
-    for (const Scene& scene : scenes)
-      for (const SchemeInfo* scheme : select(context.catalogue, scene, options))
-        used = used || scheme->linear_solvers;
-    if (!used)
-      throw UsageError(
-          fmt::format("--linear-solver: found '{}', expected nothing because no chosen integrator takes it",
-                      context.request.linear_solver));
-  }
-  if (!options.scheme.spectral_radius) return;
-  const std::string& text = context.request.spectral_radius;
+  const Request& request = context.request;
+  OptionUse used;
   for (const Scene& scene : scenes) {
-    bool used = false;
+    bool takes_radius = false;
     for (const SchemeInfo* scheme : select(context.catalogue, scene, options)) {
-      if (!scheme->spectral_radii) continue;
-      used = true;
+      used.newton_tol |= scheme->uses.newton_tol;
+      used.modified_newton |= scheme->uses.modified_newton;
+      used.linear_solver |= scheme->uses.linear_solver;
+      if (!scheme->spectral_radii || !options.scheme.spectral_radius) continue;
+      takes_radius = true;
       const auto [least, most] = *scheme->spectral_radii;
       if (*options.scheme.spectral_radius < least || *options.scheme.spectral_radius > most)
-        throw UsageError(fmt::format("--spectral-radius: found '{}', expected {:g} to {:g} for {}", text,
-                                     least, most, scheme->name));
+        throw UsageError(fmt::format("--spectral-radius: found '{}', expected {:g} to {:g} for {}",
+                                     request.spectral_radius, least, most, scheme->name));
     }
-    if (!used)
-      throw UsageError(fmt::format(
-          "--spectral-radius: found '{}', expected nothing because no chosen integrator takes it", text));
+    if (options.scheme.spectral_radius && !takes_radius)
+      refuse("--spectral-radius", request.spectral_radius, nobody_takes_it);
   }
+  if (!request.newton_tol.empty() && !used.newton_tol)
+    refuse("--newton-tol", request.newton_tol, nobody_takes_it);
+  if (!request.linear_solver.empty() && !used.linear_solver)
+    refuse("--linear-solver", request.linear_solver, nobody_takes_it);
+  if (request.modified_newton && !used.modified_newton)
+    throw UsageError(fmt::format("--modified-newton: found --modified-newton, expected {}", nobody_takes_it));
 }
 
 void check_ladders(const Context& context, const std::vector<Scene>& scenes, const StudyOptions& options) {

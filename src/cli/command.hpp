@@ -83,7 +83,8 @@ std::string reference_folder();
 /// named.
 int verdict(const Context& context, const std::vector<const SceneStudy*>& studies);
 
-/// Refuses --spectral-radius where no chosen integrator takes it or where one cannot take that value.
+/// Refuses --spectral-radius where no chosen integrator takes it or where one cannot take that value, and
+/// --newton-tol, --modified-newton and --linear-solver where none does on any of the scenes.
 void check_scheme_options(const Context& context, const std::vector<Scene>& scenes,
                           const StudyOptions& options);
 /// Refuses --steps or --tols that no chosen integrator could use.

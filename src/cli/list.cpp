@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "src/cli/command.hpp"
 #include "src/environment.hpp"
@@ -41,8 +42,10 @@ Table models_table(const Catalogue& catalogue, Json& json) {
               {}};
   json = Json::array();
   for (const ModelEntry& model : catalogue.models) {
-    table.rows.push_back({std::string(model.name), std::string(model.summary), std::string(model.citation)});
-    json.push_back({{"name", model.name}, {"summary", model.summary}, {"citation", model.citation}});
+    std::string summary(model.summary);
+    if (!model.loads.empty()) summary += fmt::format("; loads: {}", fmt::join(model.loads, ", "));
+    table.rows.push_back({std::string(model.name), summary, std::string(model.citation)});
+    json.push_back({{"name", model.name}, {"summary", summary}, {"citation", model.citation}});
   }
   return table;
 }

@@ -37,7 +37,8 @@ int refine(Context& context) {
   const Request& request = context.request;
   const RefinePlan plan = read_plan(request);
   const StudyOptions options = study_options(request);
-  if (options.scheme.spectral_radius)
+  if (request.modified_newton || !request.newton_tol.empty() || !request.spectral_radius.empty() ||
+      !request.linear_solver.empty())
     check_scheme_options(context, {load_scene(context.catalogue, plan.scene, plan.changes)}, options);
   ReferenceStore references(reference_folder(), true);
   Runner runner(context.catalogue, references, context.stop);

@@ -102,6 +102,16 @@ void print(const Request& request, const SceneStudy& study) {
                              row.timing->repetitions, row.timing->unstable ? " (unstable)" : ""));
 }
 
+/// CSV and LaTeX on standard output have no place for flags, and nothing else is printed there.
+void tell_flags(const Request& request, const RunResult& result, int samples) {
+  if (request.quiet || (request.csv != "-" && request.latex != "-")) return;
+  for (const std::string& flag : result.flags) std::cerr << "gnomon: flag: " << flag << '\n';
+  const std::size_t asked = static_cast<std::size_t>(samples) + 1;
+  if (result.status == Status::ok && samples > 0 && result.samples.size() < asked)
+    std::cerr << fmt::format("gnomon: found {} states to keep in {} steps, asked for were {}\n",
+                             result.samples.size(), result.cost.steps, asked);
+}
+
 }  // namespace
 
 int run(Context& context) {
@@ -115,7 +125,7 @@ int run(Context& context) {
   SceneStudy study;
   study.scene = std::move(load_scenes(context).front());
   if (options.integrators.empty()) throw UsageError("--integrator: found nothing, " + one_name);
-  const SchemeInfo& scheme = *select(context.catalogue, study.scene, options).front();
+  const SchemeInfo& scheme = *select(context.catalogue, study.scene, options, "--integrator").front();
   const Setting setting = read_setting(scheme, options);
   check_scheme_options(context, {study.scene}, options);
   warn({study.scene});
@@ -133,6 +143,7 @@ int run(Context& context) {
       runner.time(study.scene, study.rows, options);
   }
   print(request, study);
+  tell_flags(request, result, options.samples);
   Document document(context.catalogue, "run");
   document.add(study);
   const output::Table table = result.samples.empty() ? runs_table(study, "") : series_table(study);

@@ -19,6 +19,7 @@ int scorecard(Context& context) {
   const std::vector<Scene> scenes = load_scenes(context);
   std::size_t total = 0;
   for (const Scene& scene : scenes) total += scorecard_runs(context.catalogue, scene, options);
+  check_scheme_options(context, scenes, options);
   warn(scenes);
 
   ReferenceStore references(reference_folder(), true);

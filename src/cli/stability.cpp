@@ -19,6 +19,7 @@ int stability(Context& context) {
   const std::optional<Variation> varied = variation(request);
   std::size_t total = 0;
   for (const Scene& scene : scenes) total += equal_step_schemes(context.catalogue, scene, options).size();
+  check_scheme_options(context, scenes, options);
   warn(scenes);
 
   ReferenceStore references(reference_folder(), true);

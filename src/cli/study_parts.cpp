@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "src/error.hpp"
 #include "src/output/files.hpp"
 #include "src/study/compare.hpp"
 #include "src/study/peers.hpp"
@@ -43,11 +42,8 @@ void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vect
 
   const auto on = [&](const Scene& scene) {
     StudyOptions chosen = options;
-    for (const std::string& name : study.integrators) {
-      if (!context_.catalogue.scheme(name))
-        throw UsageError(fmt::format("study of {}: integrators: found the unknown name '{}'", model, name));
+    for (const std::string& name : study.integrators)
       if (context_.catalogue.pair(name, *scene.model)) chosen.integrators.push_back(name);
-    }
     return chosen;
   };
 

@@ -26,8 +26,8 @@ class PartMaker {
   PartMaker(Context& context, Runner& runner, const Session& session, StudyFolder& files)
       : context_(context), runner_(runner), session_(session), files_(files) {}
 
-  /// Adds what a model's study asks for. `model` is what files of a part are called by. The parts refer to
-  /// the maker.
+  /// Adds what a model's study, read with the catalogue, asks for. `model` is what files of a part are called
+  /// by. The parts refer to the maker.
   void plan(const StudyPlan& study, const std::string& model, std::vector<Part>& parts);
 
  private:

@@ -96,6 +96,18 @@ Json options_json(const SchemeOptions& options) {
           {"linear_solver", to_string(options.linear_solver)}};
 }
 
+Json options_json(const SchemeOptions& options, const SchemeInfo& scheme) {
+  Json json = options_json(options);
+  const auto keep = [&](const char* key, bool used) {
+    if (!used) json[key] = nullptr;
+  };
+  keep("newton_tol", scheme.uses.newton_tol);
+  keep("spectral_radius", scheme.spectral_radii.has_value());
+  keep("modified_newton", scheme.uses.modified_newton);
+  keep("linear_solver", scheme.uses.linear_solver);
+  return json;
+}
+
 Json run_json(const Scene& scene, const Row& row) {
   if (!row.document.is_null()) {
     Json json = row.document;
@@ -110,7 +122,7 @@ Json run_json(const Scene& scene, const Row& row) {
   json["step"] = optional(result.step);
   json["requested_step"] = optional(row.setting.step);
   json["tol"] = optional(row.setting.tol);
-  json["options"] = options_json(row.options);
+  json["options"] = options_json(row.options, *row.scheme);
   json["status"] = to_string(result.status);
   json["message"] = result.message;
   json["t"] = finite_or_null(result.t);

@@ -12,6 +12,8 @@ namespace gnomon {
 
 /// What the user told the schemes.
 nlohmann::ordered_json options_json(const SchemeOptions& options);
+/// The same of a run with one scheme: null for what the scheme does not use.
+nlohmann::ordered_json options_json(const SchemeOptions& options, const SchemeInfo& scheme);
 /// RUN of a document.
 nlohmann::ordered_json run_json(const Scene& scene, const Row& row);
 

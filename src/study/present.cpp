@@ -118,7 +118,7 @@ void name_linear_solver(const SceneStudy& study, const std::vector<const SchemeI
   table.columns.insert(table.columns.begin() + 1, {"linear_solver", "linear solver", Align::left});
   for (std::size_t k = 0; k < table.rows.size(); ++k)
     table.rows[k].insert(table.rows[k].begin() + 1,
-                         schemes[k]->linear_solvers ? Cell(std::string(to_string(solver))) : Cell{});
+                         schemes[k]->uses.linear_solver ? Cell(std::string(to_string(solver))) : Cell{});
 }
 
 Table runs_table(const SceneStudy& study, const std::string& caption) {

@@ -252,31 +252,32 @@ nlohmann::ordered_json Runner::measure(std::string_view kind, const Json& identi
   return kept.status == Status::ok ? kept.result : Json();
 }
 
+std::string misfit(const Catalogue& catalogue, const Scene& scene, const std::string& name) {
+  if (catalogue.scheme(name) && catalogue.pair(name, *scene.model)) return {};
+  std::vector<std::string> names;
+  for (const SchemeInfo* each : catalogue.schemes_for(*scene.model)) names.emplace_back(each->name);
+  if (!catalogue.scheme(name)) {
+    std::vector<std::string> all;
+    for (const SchemeInfo& each : catalogue.schemes) all.emplace_back(each.name);
+    const std::string near = nearest(name, all);
+    return fmt::format("found the unknown name '{}', expected {}", name,
+                       near.empty() ? fmt::format("one of {}", fmt::join(names, ", ")) : near);
+  }
+  const std::string_view why = catalogue.refusal(name, *scene.model);
+  return fmt::format(
+      "found '{}', which does not run on scene '{}' (model {}, load {}){}{}, expected one of {}", name,
+      scene.name, scene.model_name, scene.model->load_class(), why.empty() ? "" : ": ", why,
+      fmt::join(names, ", "));
+}
+
 std::vector<const SchemeInfo*> select(const Catalogue& catalogue, const Scene& scene,
-                                      const StudyOptions& options) {
-  const std::vector<const SchemeInfo*> valid = catalogue.schemes_for(*scene.model);
-  if (options.integrators.empty()) return valid;
+                                      const StudyOptions& options, std::string_view option) {
+  if (options.integrators.empty()) return catalogue.schemes_for(*scene.model);
   std::vector<const SchemeInfo*> chosen;
   for (const std::string& name : options.integrators) {
-    const SchemeInfo* info = catalogue.scheme(name);
-    std::vector<std::string> names;
-    for (const SchemeInfo* each : valid) names.emplace_back(each->name);
-    if (!info) {
-      std::vector<std::string> all;
-      for (const SchemeInfo& each : catalogue.schemes) all.emplace_back(each.name);
-      const std::string near = nearest(name, all);
-      throw UsageError(fmt::format("--integrators: found the unknown name '{}', expected {}", name,
-                                   near.empty() ? fmt::format("one of {}", fmt::join(names, ", ")) : near));
-    }
-    if (!catalogue.pair(name, *scene.model)) {
-      const std::string_view why = catalogue.refusal(name, *scene.model);
-      throw UsageError(
-          fmt::format("--integrators: found '{}', which does not run on scene '{}' (model {}, load {}){}{}, "
-                      "expected one of {}",
-                      name, scene.name, scene.model_name, scene.model->load_class(), why.empty() ? "" : ": ",
-                      why, fmt::join(names, ", ")));
-    }
-    chosen.push_back(info);
+    if (const std::string why = misfit(catalogue, scene, name); !why.empty())
+      throw UsageError(fmt::format("{}: {}", option, why));
+    chosen.push_back(catalogue.scheme(name));
   }
   return chosen;
 }
@@ -315,9 +316,11 @@ std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const 
       if (trace.t[k] < info.since) continue;
       const double* value = trace.values.data() + k * width + offset;
       if (summary.initial.empty()) summary.initial.assign(value, value + size);
+      // Divided by the scale before it is squared, which very small or large values would not survive.
       double square = 0.0;
-      for (std::size_t i = 0; i < size; ++i) square += std::pow(value[i] - summary.initial[i], 2);
-      const double drift = (size == 1 ? value[0] - summary.initial[0] : std::sqrt(square)) / info.scale;
+      for (std::size_t i = 0; i < size; ++i)
+        square += std::pow((value[i] - summary.initial[i]) / info.scale, 2);
+      const double drift = size == 1 ? (value[0] - summary.initial[0]) / info.scale : std::sqrt(square);
       summary.times.push_back(trace.t[k]);
       summary.drift.push_back(drift);
       summary.final.assign(value, value + size);

@@ -134,10 +134,13 @@ class Runner {
   Keeper* keeper_ = nullptr;
 };
 
-/// The integrators a study is to run on a scene. Throws UsageError for a name that does not exist or does not
-/// fit.
+/// Why no integrator of that name runs on a scene, as "found .., expected .."; empty if one does.
+std::string misfit(const Catalogue& catalogue, const Scene& scene, const std::string& name);
+
+/// The integrators a study is to run on a scene. Throws UsageError, in the name of `option`, for a name that
+/// does not exist or does not fit.
 std::vector<const SchemeInfo*> select(const Catalogue& catalogue, const Scene& scene,
-                                      const StudyOptions& options);
+                                      const StudyOptions& options, std::string_view option = "--integrators");
 
 /// Steps t_end / N with N = N0 2^(k ratio), N0 from the time scale of the motion; `count` of them.
 std::vector<double> step_ladder(const Scene& scene, int count, double ratio);

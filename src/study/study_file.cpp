@@ -6,6 +6,7 @@
 
 #include "src/error.hpp"
 #include "src/scene_reader.hpp"
+#include "src/study/study_check.hpp"
 
 namespace gnomon {
 
@@ -60,12 +61,17 @@ VaryPlan read_vary(Section& section) {
 
 }  // namespace
 
-StudyPlan read_study(const std::string& path) {
+StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
   toml::table table;
   try {
     table = toml::parse_file(path);
   } catch (const toml::parse_error& error) {
-    throw UsageError(fmt::format("{}: {}", path, error.description()));
+    const auto line = error.source().begin.line;
+    if (line == 0)
+      throw UsageError(fmt::format("{}: found no file that can be read, expected that of a study ({})", path,
+                                   error.description()));
+    throw UsageError(fmt::format("{}:{}: found what is not TOML, expected valid TOML ({})", path, line,
+                                 error.description()));
   }
   const SceneSource source{path, {}};
   Section root(table, "", source);
@@ -75,14 +81,21 @@ StudyPlan read_study(const std::string& path) {
       section.finish();
     }
   };
+  StudyCheck check(catalogue);
+  const auto scenes = [&](const char* key) {
+    std::vector<std::string> names = root.texts(key, "names of scenes");
+    check.scenes(root, key, names);
+    return names;
+  };
   StudyPlan plan;
-  plan.converge = root.texts("converge", "names of scenes");
-  plan.quick_converge = root.texts("quick_converge", "names of scenes");
-  plan.compare = root.texts("compare", "names of scenes");
-  plan.quick_compare = root.texts("quick_compare", "names of scenes");
-  plan.scorecard = root.texts("scorecard", "names of scenes");
-  plan.quick_scorecard = root.texts("quick_scorecard", "names of scenes");
+  plan.converge = scenes("converge");
+  plan.quick_converge = scenes("quick_converge");
+  plan.compare = scenes("compare");
+  plan.quick_compare = scenes("quick_compare");
+  plan.scorecard = scenes("scorecard");
+  plan.quick_scorecard = scenes("quick_scorecard");
   plan.integrators = root.texts("integrators", "names of integrators");
+  check.shared_integrators(root, plan.integrators);
   each("drift", [&](Section& section) {
     section.only(
         {"scene", "t_end", "quick_t_end", "step", "steps", "tol", "integrators", "published", "source"});
@@ -106,6 +119,7 @@ StudyPlan read_study(const std::string& path) {
     }
     drift.source = drift.published.empty() ? section.text_or("source", "", "where it was published")
                                            : section.text("source", "where it was published");
+    check.drift(section, drift);
     plan.drift.push_back(std::move(drift));
   });
   each("speed", [&](Section& section) {
@@ -121,6 +135,7 @@ StudyPlan read_study(const std::string& path) {
     speed.scalar = section.flag("scalar");
     speed.integrators = section.texts("integrators", "names of integrators");
     speed.full_only = section.flag("full_only");
+    check.speed(section, speed);
     plan.speed.push_back(std::move(speed));
   });
   each("work", [&](Section& section) {
@@ -133,6 +148,7 @@ StudyPlan read_study(const std::string& path) {
     if (section.has("time_limit")) work.time_limit = section.positive("time_limit", "a positive number (s)");
     if (section.has("timing_budget"))
       work.timing_budget = section.positive("timing_budget", "a positive number (s)");
+    check.work(section, work);
     plan.work.push_back(std::move(work));
   });
   each("survey", [&](Section& section) {
@@ -141,6 +157,7 @@ StudyPlan read_study(const std::string& path) {
                            section.text("scene", "a scene's name"),
                            section.positive("step", "a positive number (s)"),
                            section.positive("t_end", "a positive number (s)")});
+    check.survey(section, plan.survey.back());
   });
   each("peers", [&](Section& section) {
     section.only({"scene", "levels", "goals", "integrators"});
@@ -149,9 +166,13 @@ StudyPlan read_study(const std::string& path) {
     peers.levels = section.numbers("levels", 4, "four errors, the greatest first");
     peers.goals = section.numbers("goals", 4, "four shares of the best peer's time");
     peers.integrators = section.texts("integrators", "names of integrators");
+    check.peers(section, peers);
     plan.peers.push_back(std::move(peers));
   });
-  each("vary", [&](Section& section) { plan.vary.push_back(read_vary(section)); });
+  each("vary", [&](Section& section) {
+    plan.vary.push_back(read_vary(section));
+    check.vary(section, plan.vary.back());
+  });
   root.finish();
   return plan;
 }

@@ -8,6 +8,8 @@
 
 namespace gnomon {
 
+struct Catalogue;
+
 /// A drift that somebody else's program has, as published.
 struct PublishedDrift {
   std::string name, invariant;
@@ -96,7 +98,8 @@ struct StudyPlan {
   std::vector<VaryPlan> vary;
 };
 
-/// Throws UsageError if the file does not fit.
-StudyPlan read_study(const std::string& path);
+/// Throws UsageError if the file does not fit; with a catalogue also if its scenes or integrators are not in
+/// it or do not go together.
+StudyPlan read_study(const std::string& path, const Catalogue* catalogue = nullptr);
 
 }  // namespace gnomon

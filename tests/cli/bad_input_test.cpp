@@ -93,11 +93,11 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {{"run", "s.toml", "--integrator", "rkmk4,munjiza", "--step", "1"},
        "--integrator: found 'rkmk4,munjiza', expected the name of one integrator"},
       {{"run", "s.toml", "--integrator", "rkkm4", "--step", "1"},
-       "--integrators: found the unknown name 'rkkm4', expected rkmk4"},
+       "--integrator: found the unknown name 'rkkm4', expected rkmk4"},
       {{"run", "s.toml", "--integrator", "euler", "--step", "1"},
-       "--integrators: found the unknown name 'euler', expected " + integrators_for("asymmetric-free-top")},
+       "--integrator: found the unknown name 'euler', expected " + integrators_for("asymmetric-free-top")},
       {{"run", "space-moment", "--integrator", "exact-free-top"},
-       "--integrators: found 'exact-free-top', which does not run on scene 'space-moment' (model rigid_body, "
+       "--integrator: found 'exact-free-top', which does not run on scene 'space-moment' (model rigid_body, "
        "load "
        "space_moment), expected " +
            integrators_for("space-moment")},
