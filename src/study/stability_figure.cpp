@@ -89,7 +89,7 @@ Places places_of(const output::Panel& panel, const Variation& variation) {
     const double u = along(varied_x(variation, of));
     places.around.push_back({back(u - 0.4 * gap), back(u + 0.4 * gap)});
   }
-  const double beside = std::max(0.5 * gap, 0.03 * (sorted.back() - sorted.front()));
+  const double beside = std::max(0.45 * gap, 0.03 * (sorted.back() - sorted.front()));
   places.all = {back(sorted.front() - beside), back(sorted.back() + beside)};
   return places;
 }

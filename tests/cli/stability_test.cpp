@@ -26,7 +26,7 @@ TEST_CASE("cli: stability shows how schemes fail over step and parameter and end
   for (const Json& entry : json["stability"]) {
     CHECK(keys_of(entry) == Keys{"scene", "integrator", "vary", "time_scale", "max_drift", "largest_step",
                                  "breaks_at", "breaks_how", "status", "message", "t", "survives_again",
-                                 "points"});
+                                 "steps_tried", "tried_down_to", "points"});
     CHECK(entry["integrator"] == "beam-midpoint");
     CHECK(entry["status"] == "newton_failed");
     CHECK(entry["message"].get<std::string>().starts_with("Newton's iteration did not converge in step "));
