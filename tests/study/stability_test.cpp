@@ -65,7 +65,8 @@ TEST_CASE("stability: Verlet's largest step on a pendulum is found on both sides
   CHECK(breaking.how.starts_with("energy off by "));
   CHECK(breaking.status == Status::ok);
   CHECK(breaking.t == horizon(t_end, *breaking.breaks));
-  CHECK(breaking.t == 2.0 * t_end);
+  CHECK(breaking.t >= 100.0 * *breaking.breaks);
+  CHECK(breaking.t < 200.0 * *breaking.breaks);
   // All its steps, here by themselves, agree; with so few of them none is left out by the sampling.
   const auto worst = [&](double step) {
     const double end = horizon(t_end, step);
