@@ -22,6 +22,7 @@ struct Series {
   int style = 0;                ///< see style_of: the scheme's position in the catalogue
   std::vector<Range> x_bars{};  ///< error bars along x, such as the least and the most of repeated times;
                                 ///< same length; empty: none
+  bool marks_only = false;      ///< a marker at every point and no line: a map; named in a key
 };
 
 /// A horizontal line, such as the error bound of the reference. Left out if it is far below the data.

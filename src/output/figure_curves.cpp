@@ -74,12 +74,12 @@ Curve curve_of(const Series& series, const Panel& panel) {
       continue;
     }
     if (i > 0 && is_hollow(series, i - 1) && is_hollow(series, i)) broken = true;
-    if (broken) curve.pieces.emplace_back();
+    if (broken || series.marks_only) curve.pieces.emplace_back();
     broken = false;
     curve.pieces.back().push_back({series.x[i], series.y[i]});
     drawn.push_back(i);
   }
-  if (drawn.size() > most_points_with_markers) {
+  if (drawn.size() > most_points_with_markers && !series.marks_only) {
     curve.line_width = 1.3;
     drawn = marked_points(series, panel, drawn);
   }

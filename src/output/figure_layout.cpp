@@ -405,7 +405,9 @@ Drawing lay_out(const Figure& figure) {
 
   std::optional<Drawing> drawing;
   if (figure.panels.size() == 1) {
+    const bool map = std::ranges::any_of(figure.panels.front().series, &Series::marks_only);
     for (const Naming naming : {Naming::beside_frame, Naming::at_ends, Naming::key_right}) {
+      if (map && naming != Naming::key_right) continue;
       if (!drawing) drawing = drawing_with(figure, curves, naming);
     }
   } else if (!figure.panels.empty()) {

@@ -69,7 +69,7 @@ Scorecard scorecard(Runner& runner, const Scene& scene, const StudyOptions& opti
         score.energy = row.drift;
   }
 
-  StepSearch search = stability_search({scene});
+  StepSearch search = stability_search({scene}, options.quick);
   search.whole = false;
   std::vector<const SchemeInfo*> fixed;
   std::vector<Score*> scores;
@@ -121,6 +121,11 @@ nlohmann::ordered_json scorecard_json(const Scorecard& card) {
         score.breaking && score.breaking->survived > 0.0 ? number(score.breaking->survived) : Json(nullptr);
     item["breaks_at"] = score.breaking ? number(score.breaking->breaks) : Json(nullptr);
     item["breaks_how"] = score.breaking && score.breaking->breaks ? Json(score.breaking->how) : Json(nullptr);
+    item["survives_again_up_to"] =
+        score.breaking && score.breaking->again > 0.0 ? number(score.breaking->again) : Json(nullptr);
+    item["steps_tried"] = score.breaking ? Json(score.breaking->tried) : Json(nullptr);
+    item["tried_down_to"] =
+        score.breaking && score.breaking->tried > 0 ? number(score.breaking->down_to) : Json(nullptr);
     item["runs"] = score.runs;
     item["failed"] = score.failed;
     item["first_failure"] = score.failed > 0 ? Json(score.first_failure) : Json(nullptr);

@@ -149,6 +149,13 @@ void add_step_cells(std::vector<output::Cell>& cells, const std::vector<ScoreOn>
   cells.push_back(breaking.breaks ? output::Cell(breaking.how) : output::Cell());
 }
 
+std::string largest_step_note() {
+  return "all smaller ones that were tried survive, at least down to a sixteenth of it unless a run there "
+         "takes "
+         "longer than 20 s; ≥: the largest that was tried; " +
+         survival_line({});
+}
+
 std::string exponent_text(double level) { return fmt::format("{:.0e}", level); }
 
 }  // namespace
@@ -209,7 +216,7 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
       "energy: the worst of the scenes that keep one, over a thousand time scales, a tenth of one the step, "
       "1e-8 the "
       "tolerance; its drift: the largest, in the scale of the energy");
-  table.notes.push_back("largest step: the least of the scenes, in time scales; " + survival_line({}));
+  table.notes.push_back("largest step: the least of the scenes, in time scales; " + largest_step_note());
   return table;
 }
 
@@ -264,7 +271,7 @@ output::Table scorecard_table(const Scorecard& card) {
                   metric.name, scene.t_end));
   table.notes.push_back(fmt::format("energy to t = {:g} s at a step of {:.3g} s or a tolerance of 1e-8",
                                     card.long_t_end, 0.1 * scene.model->time_scale()));
-  table.notes.push_back("largest step: " + survival_line({}));
+  table.notes.push_back("largest step: " + largest_step_note());
   return table;
 }
 

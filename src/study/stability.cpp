@@ -17,7 +17,7 @@ std::vector<double> StabilityEntry::islands() const {
   return steps;
 }
 
-StepSearch stability_search(const std::vector<Scene>& scenes) {
+StepSearch stability_search(const std::vector<Scene>& scenes, bool quick) {
   double shortest = scenes.front().model->time_scale(), longest = shortest, t_end = scenes.front().t_end;
   for (const Scene& scene : scenes) {
     shortest = std::min(shortest, scene.model->time_scale());
@@ -32,6 +32,8 @@ StepSearch stability_search(const std::vector<Scene>& scenes) {
   search.whole = true;
   search.resolution = std::pow(2.0, 0.125);
   search.lowest = search.first / 4096.0;
+  search.descent.near = quick ? 4 : 12;
+  search.descent.far = quick ? 2 : 4;
   return search;
 }
 
@@ -52,17 +54,14 @@ Stability stability(Runner& runner, const std::vector<Scene>& scenes,
   Stability study;
   study.name = scenes.front().name.substr(0, scenes.front().name.find('['));
   study.variation = variation;
-  study.search = stability_search(scenes);
+  study.search = stability_search(scenes, options.quick);
   study.search.survival = survival;
   for (const Scene& scene : scenes) {
     study.scenes.emplace_back();
     StabilityScene& on = study.scenes.back();
     on.scene = scene;
     // Errors are looked at only where no energy is constant.
-    const std::vector<InvariantInfo> infos = scene.model->invariant_info();
-    const bool has_energy = std::ranges::any_of(
-        infos, [&](const InvariantInfo& info) { return info.name == "energy" && info.since < scene.t_end; });
-    if (has_energy)
+    if (keeps_energy(scene))
       on.reference.message = "not needed: the energy tells";
     else
       on.reference = runner.reference(scene, options);

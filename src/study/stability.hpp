@@ -37,8 +37,9 @@ struct Stability {
 };
 
 /// Steps that divide the run into equal parts, by factors of 2 from about a 64th of the shortest time scale
-/// of the scenes to 64 times the longest, at most an eighth of the run; smaller ones where that fails.
-StepSearch stability_search(const std::vector<Scene>& scenes);
+/// of the scenes to 64 times the longest, at most an eighth of the scene; smaller ones where that fails. The
+/// descent goes over a factor of 16, in a quick study with fewer steps.
+StepSearch stability_search(const std::vector<Scene>& scenes, bool quick = false);
 
 /// The schemes of equal steps among the chosen ones. Throws UsageError where another one was named.
 std::vector<const SchemeInfo*> equal_step_schemes(const Catalogue& catalogue, const Scene& scene,

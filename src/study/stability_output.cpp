@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/output/figure_style.hpp"
 #include "src/study/present.hpp"
 
 namespace gnomon {
@@ -31,7 +30,9 @@ std::vector<output::Column> first_columns(const Stability& study) {
 void add_notes(const Stability& study, output::Table& table) {
   table.notes.push_back(survival_line(study.search.survival));
   if (!study.scenes.empty())
-    table.notes.push_back(fmt::format("run to t = {:g} s", study.scenes.front().scene.t_end));
+    table.notes.push_back(
+        fmt::format("run to t = {:g} s, doubled for large steps until it takes {:g} of them",
+                    study.scenes.front().scene.t_end, fewest_steps));
 }
 
 std::string steps_text(const std::vector<double>& steps) {
@@ -49,6 +50,8 @@ output::Table stability_table(const Stability& study) {
   table.columns.insert(table.columns.end(), {{"largest_step_s", "largest step [s]"},
                                              {"largest_step_scaled", "in time scales"},
                                              {"max_drift", "largest drift there"},
+                                             {"tried_down_to_s", "tried down to [s]"},
+                                             {"tried", "steps tried"},
                                              {"breaks_at_s", "fails at [s]"},
                                              {"how", "how", Align::left},
                                              {"status", "status", Align::left},
@@ -75,6 +78,8 @@ output::Table stability_table(const Stability& study) {
       const auto point = std::ranges::find(entry.points, breaking.survived, &StabilityEntry::Point::step);
       const auto drift = point == entry.points.end() ? std::nullopt : largest_drift(on.rows[point->row]);
       cells.push_back(drift ? output::number_cell(*drift, 2) : output::Cell());
+      cells.push_back(breaking.tried > 0 ? output::number_cell(breaking.down_to) : output::Cell());
+      cells.emplace_back(fmt::format("{}", breaking.tried));
       if (breaking.breaks)
         cells.insert(cells.end(),
                      {output::number_cell(*breaking.breaks), breaking.how,
@@ -89,11 +94,13 @@ output::Table stability_table(const Stability& study) {
   }
   add_notes(study, table);
   table.notes.push_back(fmt::format(
-      "steps of a ladder by factors of 2, then bisected until neighbours are a factor {:.3g} or one step of "
-      "the run apart; "
-      "≥: the largest step of the ladder survives; survives again: steps of the ladder beyond the "
-      "first that fails",
-      study.search.resolution));
+      "largest step: all smaller ones that were tried survive, too; a ladder of factors of 2, bisected until "
+      "neighbours are a factor {:.3g} or one step of the run apart, then {} steps in the octave below the "
+      "largest and {} an octave in the next {}, and again below one that fails; tried: without runs that a "
+      "limit ended; ≥: the largest step of the ladder survives; survives again: tried steps beyond the "
+      "smallest that fails",
+      study.search.resolution, study.search.descent.near, study.search.descent.far,
+      study.search.descent.octaves - 1));
   return table;
 }
 
@@ -134,62 +141,6 @@ output::Table stability_map(const Stability& study) {
   return table;
 }
 
-output::Figure stability_figure(const Catalogue& catalogue, const Stability& study) {
-  output::Figure figure;
-  output::Panel panel;
-  const auto style = [&](const SchemeInfo& scheme) {
-    const auto found = std::ranges::find(catalogue.schemes, scheme.name, &SchemeInfo::name);
-    return static_cast<int>(found - catalogue.schemes.begin());
-  };
-  if (!study.variation) {
-    figure.title = fmt::format("{}: what large steps do", study.name);
-    figure.hollow_note = "hollow: does not survive";
-    panel.x_label = "step [s]";
-    panel.y_label = "largest drift of an invariant / its scale";
-    for (const StabilityScene& on : study.scenes)
-      for (const StabilityEntry& entry : on.entries) {
-        output::Series series;
-        series.label = std::string(entry.scheme->name);
-        series.style = style(*entry.scheme);
-        for (const StabilityEntry::Point& point : entry.points) {
-          series.x.push_back(point.step);
-          // Curves end where a result is wrong by orders of magnitude.
-          const double drift = largest_drift(on.rows[point.row]).value_or(std::nan(""));
-          series.y.push_back(drift < 1e3 ? drift : std::nan(""));
-          series.hollow.push_back(!point.failure.empty());
-        }
-        panel.series.push_back(std::move(series));
-      }
-    panel.reference_lines.push_back({study.search.survival.max_drift, "limit"});
-    figure.panels.push_back(std::move(panel));
-    output::settle_styles(figure);
-    return figure;
-  }
-  figure.title = fmt::format("{}: largest step that survives", study.name);
-  figure.hollow_note = "hollow: the largest step tried";
-  const auto numbers = study.variation->numbers();
-  const bool log = numbers && std::ranges::all_of(*numbers, [](double value) { return value > 0.0; });
-  panel.x_label =
-      numbers ? study.variation->key : fmt::format("number of the value of {}", study.variation->key);
-  panel.y_label = "largest step that survives [s]";
-  panel.log_x = log;
-  for (std::size_t of = 0; of < study.scenes.size(); ++of)
-    for (const StabilityEntry& entry : study.scenes[of].entries) {
-      const std::string label(entry.scheme->name);
-      auto series = std::ranges::find(panel.series, label, &output::Series::label);
-      if (series == panel.series.end()) {
-        panel.series.push_back({label, {}, {}, {}, style(*entry.scheme)});
-        series = panel.series.end() - 1;
-      }
-      series->x.push_back(numbers ? (*numbers)[of] : static_cast<double>(of + 1));
-      series->y.push_back(entry.breaking.survived > 0.0 ? entry.breaking.survived : std::nan(""));
-      series->hollow.push_back(!entry.breaking.breaks);
-    }
-  figure.panels.push_back(std::move(panel));
-  output::settle_styles(figure);
-  return figure;
-}
-
 nlohmann::ordered_json stability_json(const Stability& study) {
   using Json = nlohmann::ordered_json;
   const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
@@ -212,10 +163,13 @@ nlohmann::ordered_json stability_json(const Stability& study) {
       item["message"] = breaking.breaks ? Json(breaking.message) : Json(nullptr);
       item["t"] = breaking.breaks ? number(breaking.t) : Json(nullptr);
       item["survives_again"] = entry.islands();
+      item["steps_tried"] = breaking.tried;
+      item["tried_down_to"] = breaking.tried > 0 ? number(breaking.down_to) : Json(nullptr);
       item["points"] = Json::array();
       for (const StabilityEntry::Point& point : entry.points) {
         const Row& row = on.rows[point.row];
         item["points"].push_back({{"step", number(point.step)},
+                                  {"t_end", number(horizon(on.scene.t_end, point.step))},
                                   {"survives", point.failure.empty()},
                                   {"how", point.failure},
                                   {"status", to_string(row.result.status)},

@@ -11,7 +11,8 @@ namespace gnomon {
 output::Table stability_table(const Stability& study);
 /// One row a scene and scheme, one column a step of the ladder: "ok", or what fails and when.
 output::Table stability_map(const Stability& study);
-/// Without a variation the largest drift against the step, with one the largest step against the value.
+/// Without a variation the largest drift against the step. With one a map, a panel a scheme: the steps that
+/// were tried against the value, marked by whether and how they fail.
 output::Figure stability_figure(const Catalogue& catalogue, const Stability& study);
 /// "stability": one entry a scene and scheme.
 nlohmann::ordered_json stability_json(const Stability& study);

@@ -41,7 +41,7 @@ struct Survey {
 };
 
 /// Every scheme of equal steps on one scene of each class: order, cost, invariants, drift of the energy, and
-/// the step at which it breaks.
+/// the step at which it is off by 1 %.
 Survey survey(Runner& runner, const std::string& model, const std::vector<SurveyPlan>& plans,
               const StudyOptions& options, output::Progress& progress);
 
@@ -50,7 +50,7 @@ std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan
 
 /// Orders, evaluations and time of a step.
 output::Table survey_cost_table(const Survey& survey);
-/// Invariants held, energy and the largest step.
+/// Invariants held, energy and the first step that is off by 1 %.
 output::Table survey_stability_table(const Survey& survey);
 nlohmann::ordered_json survey_json(const Survey& survey);
 

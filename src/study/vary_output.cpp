@@ -43,28 +43,6 @@ std::string value_heading(const Variation& variation, std::size_t of) {
                                                        : variation.values[of];
 }
 
-/// An empty panel over the values of the variation.
-output::Panel varied_panel(const Variation& variation) {
-  output::Panel panel;
-  const auto axis = variation.axis();
-  panel.x_label = axis ? axis->label : fmt::format("number of the value of {}", variation.key);
-  // Values over several decades: a zero among them has no place on the axis.
-  panel.log_x = false;
-  if (axis && std::ranges::none_of(axis->values, [](double value) { return value < 0.0; })) {
-    double least = HUGE_VAL, most = 0.0;
-    for (const double value : axis->values)
-      if (value > 0.0) least = std::min(least, value), most = std::max(most, value);
-    const bool zero = std::ranges::find(axis->values, 0.0) != axis->values.end();
-    panel.log_x = most > 0.0 && (!zero || most >= 100.0 * least);
-  }
-  return panel;
-}
-
-double varied_x(const Variation& variation, std::size_t of) {
-  const auto axis = variation.axis();
-  return axis ? axis->values[of] : static_cast<double>(of + 1);
-}
-
 bool has_ladders(const std::vector<Comparison>& variants) {
   for (const Comparison& study : variants)
     for (std::size_t k = 1; k < study.rows.size(); ++k)
@@ -109,6 +87,27 @@ void note_missing_references(const std::vector<Comparison>& variants, const Vari
 }
 
 }  // namespace
+
+output::Panel varied_panel(const Variation& variation) {
+  output::Panel panel;
+  const auto axis = variation.axis();
+  panel.x_label = axis ? axis->label : fmt::format("number of the value of {}", variation.key);
+  // Values over several decades: a zero among them has no place on the axis.
+  panel.log_x = false;
+  if (axis && std::ranges::none_of(axis->values, [](double value) { return value < 0.0; })) {
+    double least = HUGE_VAL, most = 0.0;
+    for (const double value : axis->values)
+      if (value > 0.0) least = std::min(least, value), most = std::max(most, value);
+    const bool zero = std::ranges::find(axis->values, 0.0) != axis->values.end();
+    panel.log_x = most > 0.0 && (!zero || most >= 100.0 * least);
+  }
+  return panel;
+}
+
+double varied_x(const Variation& variation, std::size_t of) {
+  const auto axis = variation.axis();
+  return axis ? axis->values[of] : static_cast<double>(of + 1);
+}
 
 Table varied_costs_table(const std::vector<Comparison>& variants, const Variation& variation) {
   Table table;

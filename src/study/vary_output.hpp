@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <vector>
 
 #include "src/output/figure.hpp"
@@ -7,6 +8,12 @@
 #include "src/study/vary.hpp"
 
 namespace gnomon {
+
+/// An empty panel over the values of the variation: its axis, or the numbers of the values where they have
+/// none.
+output::Panel varied_panel(const Variation& variation);
+/// Where the value of a number (from 0) stands on it.
+double varied_x(const Variation& variation, std::size_t of);
 
 // Comparisons on the variants of one scene, one a value of the variation.
 

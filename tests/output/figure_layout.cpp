@@ -176,6 +176,34 @@ TEST_CASE("output: values that cannot be drawn and neighbours at the bound break
   CHECK(curves[1].hollow.size() == 2);
 }
 
+TEST_CASE("output: a map has a marker at every point, no line and a key") {
+  Figure figure;
+  figure.panels.emplace_back();
+  Series series;
+  series.label = "survives";
+  series.marks_only = true;
+  for (int k = 0; k < 100; ++k) {
+    series.x.push_back(1.0 + k % 5);
+    series.y.push_back(std::pow(2.0, -0.05 * k));
+    series.hollow.push_back(k % 2 == 1);
+  }
+  figure.panels[0].series.push_back(series);
+  const Drawing map = lay_out(figure);
+  REQUIRE(map.panels[0].curves.size() == 1);
+  const Curve& curve = map.panels[0].curves[0];
+  CHECK(curve.filled.size() == 50);
+  CHECK(curve.hollow.size() == 50);
+  CHECK_FALSE(has_line(curve));
+  const auto is_name = [](const Text& text) { return text.text == "survives"; };
+  CHECK(std::ranges::count_if(map.decoration.texts, is_name) == 1);
+  check_texts(map);
+  // As a curve it has a line and few markers.
+  figure.panels[0].series[0].marks_only = false;
+  const Drawing line = lay_out(figure);
+  CHECK(has_line(line.panels[0].curves[0]));
+  CHECK(line.panels[0].curves[0].filled.size() + line.panels[0].curves[0].hollow.size() < 20);
+}
+
 TEST_CASE("output: long curves have few markers, at different places") {
   std::vector<std::string> left_out;
   const auto curves = curves_of(drift().panels.front(), left_out);
