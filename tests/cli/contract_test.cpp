@@ -297,3 +297,41 @@ TEST_CASE("cli: list and doctor print nothing but JSON with --json -", "[cli]") 
   CHECK(keys_of(doctor) == Keys{"gnomon", "command", "environment", "findings"});
   CHECK(doctor["findings"].size() >= 3);
 }
+
+TEST_CASE("cli: the options of a run are recorded where its integrator uses them", "[cli]") {
+  const auto options = [](const Words& arguments) {
+    Words words{"run"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    for (const char* word : {"--t-end", "0.1", "--no-reference", "--no-timing"}) words.emplace_back(word);
+    return json_of(words)["runs"][0]["options"];
+  };
+  const Json none = options({"space-moment", "--integrator", "rkmk4", "--step", "0.05"});
+  CHECK(keys_of(none) == Keys{"newton_tol", "spectral_radius", "modified_newton", "linear_solver"});
+  for (const Json& each : none) CHECK(each.is_null());
+  for (const Json& each : options({"soft-beam", "--integrator", "beam-verlet", "--step", "0.001"}))
+    CHECK(each.is_null());
+  const Json midpoint = options({"soft-beam", "--integrator", "beam-midpoint", "--step", "0.05",
+                                 "--newton-tol", "1e-9", "--linear-solver", "klu"});
+  CHECK(midpoint["newton_tol"] == 1e-9);
+  CHECK(midpoint["spectral_radius"].is_null());
+  CHECK(midpoint["modified_newton"] == false);
+  CHECK(midpoint["linear_solver"] == "klu");
+  const Json hht = options({"soft-beam", "--integrator", "beam-hht", "--step", "0.05", "--modified-newton",
+                            "--spectral-radius", "0.7"});
+  CHECK(hht["newton_tol"] == 1e-10);
+  CHECK(hht["spectral_radius"] == 0.7);
+  CHECK(hht["modified_newton"] == true);
+  CHECK(hht["linear_solver"].is_null());
+}
+
+TEST_CASE("cli: list names the loads that scenes may have", "[cli]") {
+  const Json models = json_of({"list", "models"})["models"];
+  const auto summary = [&](const std::string& name) -> std::string {
+    for (const Json& each : models)
+      if (each["name"] == name) return each["summary"];
+    return "";
+  };
+  CHECK(summary("rigid_body")
+            .ends_with("; loads: none, gravity, space_moment, body_moment, attitude_potential"));
+  CHECK(summary("rigid_body_ensemble").ends_with("; loads: none, space_moment, gravity"));
+}

@@ -202,3 +202,23 @@ TEST_CASE("cli: --json FILE replaces the file as a whole and leaves no other", "
   CHECK(outcome.out.starts_with("t_s,orientation_0,"));
   CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 1 + 11);
 }
+
+TEST_CASE("cli: CSV on standard output leaves its flags to standard error", "[cli]") {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "a.toml", free_top);
+  const auto run = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"run",     "a.toml", "--integrator",   "rkmk4",       "--step", "3",
+                                   "--t-end", "10",     "--no-reference", "--no-timing", "--csv",  "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(words, folder.path());
+  };
+  const Outcome fewer = run({"--samples", "7"});
+  CHECK(fewer.exit_code == 0);
+  CHECK(std::count(fewer.out.begin(), fewer.out.end(), '\n') == 1 + 5);
+  CHECK(fewer.err ==
+        "gnomon: flag: samples are taken at the nearest steps\n"
+        "gnomon: found 5 states to keep in 4 steps, asked for were 8\n");
+  CHECK(run({"--samples", "7", "--quiet"}).err.empty());
+  CHECK(run({"--samples", "3"}).err == "gnomon: flag: samples are taken at the nearest steps\n");
+  CHECK(run({"--samples", "4"}).err.empty());
+}

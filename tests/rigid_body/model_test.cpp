@@ -310,6 +310,49 @@ TEST_CASE("rigid body: distances", "[rigid_body]") {
         4.0 * unit_roundoff);
 }
 
+TEST_CASE("rigid body: distances and drifts do not depend on the unit of mass", "[rigid_body]") {
+  const Matrix3d attitude = Matrix3d::Identity();
+  const Vector3d start(0.3, -0.4, 1.2), apart(3e-9, 4e-9, 0.0);
+  for (const int exponent : {-1000, -530, 0, 530, 1000}) {
+    INFO(exponent);
+    const auto scaled = [&](const Vector3d& v) {
+      return Vector3d(std::ldexp(v[0], exponent), std::ldexp(v[1], exponent), std::ldexp(v[2], exponent));
+    };
+    const BodyState initial{attitude, scaled(start)}, other{attitude, scaled(start + apart)};
+    const RigidBody<SpaceMoment> model(scaled(inertia), initial, {scaled({0.1, 0.2, 0.3})}, 1.0);
+    CHECK(std::abs(model.distance(other, initial)[1] / (5e-9 / 1.3) - 1.0) <= 1e-6);
+    CHECK(model.distance(initial, initial)[1] == 0.0);
+    BodyState wrong = other;
+    wrong.angular_momentum[1] = std::nan("");
+    CHECK(std::isnan(model.distance(wrong, initial)[1]));
+    const auto boxed = box(model);
+    Trace trace{{0.0}, boxed->invariants(0.0, model.flatten(initial))};
+    trace.t.push_back(1.0);
+    const auto later = boxed->invariants(0.0, model.flatten(other));
+    trace.values.insert(trace.values.end(), later.begin(), later.end());
+    const auto summaries = summarise_invariants(*boxed, trace);
+    REQUIRE(summaries[1].info.name == "momentum_balance");
+    CHECK(std::abs(summaries[1].max_drift / (5e-9 / 1.3) - 1.0) <= 1e-6);
+  }
+}
+
+TEST_CASE("rigid body: a scaled norm is the norm", "[rigid_body]") {
+  Random random(5);
+  for (int k = 0; k < 1000; ++k) {
+    const Vector3d v = random.vector();
+    CHECK(rigid_body::scaled_norm(v) == v.norm());
+  }
+  CHECK(rigid_body::scaled_norm(Vector3d::Zero()) == 0.0);
+  CHECK(rigid_body::scaled_norm({0.0, 5e-324, 0.0}) == 5e-324);
+  CHECK(std::abs(rigid_body::scaled_norm({3e300, -4e300, 0.0}) / 5e300 - 1.0) <= 2.0 * unit_roundoff);
+  CHECK(std::isinf(rigid_body::scaled_norm({0.0, -INFINITY, 1.0})));
+  for (int k = 0; k < 3; ++k) {
+    Vector3d v = Vector3d::Zero();
+    v[k] = std::nan("");
+    CHECK(std::isnan(rigid_body::scaled_norm(v)));
+  }
+}
+
 TEST_CASE("rigid body: invariants are constant along the exact motion of every scene", "[rigid_body][long]") {
   const Catalogue catalogue = full_catalogue();
   int scenes = 0;
