@@ -259,8 +259,8 @@ integrators = ["beam-verlet"]
 [[vary]]
 label  = "later"
 scene  = "asymmetric-free-top"
-key    = "body.no_such_key"
-values = [1]
+key    = "body.angular_momentum"
+values = [[1.8, 0.4, -0.9]]
 full_only = true
 )");
   const Outcome outcome = study.bench();
@@ -285,6 +285,7 @@ full_only = true
   CHECK(ratio > 8.0);
   CHECK(ratio < 13.0);
   CHECK(!says(study.file("README.md"), "later"));
+  CHECK(!fs::exists(study.out / "vary-later.csv"));
   const Outcome again = run_program({"report", "out"}, study.folder.path());
   CHECK(again.exit_code == 0);
   CHECK(study.file("vary-spin.csv") == errors);
