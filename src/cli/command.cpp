@@ -290,8 +290,9 @@ void check_scheme_options(const Context& context, const std::vector<Scene>& scen
     if (options.scheme.spectral_radius && !takes_radius)
       refuse("--spectral-radius", request.spectral_radius, nobody_takes_it);
   }
-  if (!request.newton_tol.empty() && !used.newton_tol)
-    refuse("--newton-tol", request.newton_tol, nobody_takes_it);
+  // Not refused: scripts give it to all implicit schemes, also to those that iterate to rounding.
+  if (!request.newton_tol.empty() && !used.newton_tol && !request.quiet)
+    std::cerr << "gnomon: --newton-tol: no chosen integrator uses it\n";
   if (!request.linear_solver.empty() && !used.linear_solver)
     refuse("--linear-solver", request.linear_solver, nobody_takes_it);
   if (request.modified_newton && !used.modified_newton)

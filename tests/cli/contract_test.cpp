@@ -310,6 +310,10 @@ TEST_CASE("cli: the options of a run are recorded where its integrator uses them
   for (const Json& each : none) CHECK(each.is_null());
   for (const Json& each : options({"soft-beam", "--integrator", "beam-verlet", "--step", "0.001"}))
     CHECK(each.is_null());
+  // Scripts give it to all implicit schemes.
+  CHECK(options({"space-moment", "--integrator", "implicit-midpoint", "--step", "0.05", "--newton-tol",
+                 "1e-9"})["newton_tol"]
+            .is_null());
   const Json midpoint = options({"soft-beam", "--integrator", "beam-midpoint", "--step", "0.05",
                                  "--newton-tol", "1e-9", "--linear-solver", "klu"});
   CHECK(midpoint["newton_tol"] == 1e-9);
