@@ -1,8 +1,11 @@
 #include "src/measure/drift.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -103,14 +106,19 @@ double random_walk_error(const Samples& blocks) {
   return std::sqrt(9.0 / 5.0 * square / (n - 1.0) * n) / (blocks.back().time - blocks.front().time);
 }
 
-// Blocks that are hardly distinguishable from a random walk are taken for one, as Perron & Yabu do (J.
-// Econometrics 151 (2009) 56; half their distance from rho = 1 is too little for 64 blocks), and tiny errors
-// always: the chance trend of a random walk must not pass for a real one.
+// Blocks hardly distinguishable from a random walk (Perron & Yabu, J. Econometrics 151 (2009) 56; half their
+// distance from rho = 1 is too little for 64 blocks).
+bool walks(const Samples& blocks, const Line& line) {
+  const double rho = autocorrelation(residuals(blocks, line));
+  return rho >= 1.0 - 2.0 / std::sqrt(static_cast<double>(blocks.size()));
+}
+
+// Blocks that walk are taken for a random walk, and tiny errors always: the chance trend of a random walk
+// must not pass for a real one.
 double slope_error(const Samples& blocks, const Line& line, bool tiny) {
+  if (tiny || walks(blocks, line)) return random_walk_error(blocks);
   const std::vector<double> rest = residuals(blocks, line);
-  const double rho = autocorrelation(rest);
-  const bool walks = tiny || rho >= 1.0 - 2.0 / std::sqrt(static_cast<double>(blocks.size()));
-  return walks ? random_walk_error(blocks) : stationary_error(blocks, rest, rho);
+  return stationary_error(blocks, rest, autocorrelation(rest));
 }
 
 // Slope of log max |d| over the windows [start, start + span / 2^k] that hold at least 16 samples.
@@ -155,17 +163,47 @@ bool keeps_growing(const Samples& blocks) {
   return largest(all.subspan(half)) > 1.5 * largest(all.first(half));
 }
 
-DriftVerdict judge(const Drift& drift, const Samples& blocks, const Line& line, double span) {
+// The increments of the block means have one sign more often than chance would have it.
+bool moves_one_way(const Samples& blocks) {
+  int sum = 0;
+  for (std::size_t i = 1; i < blocks.size(); ++i)
+    sum += (blocks[i].error > blocks[i - 1].error) - (blocks[i].error < blocks[i - 1].error);
+  return std::abs(sum) > 4.0 * std::sqrt(static_cast<double>(blocks.size() - 1));
+}
+
+// What is lost and not regained: all of the loss, and that of the second half.
+struct Loss {
+  double all = 0.0;
+  double late = 0.0;
+};
+std::optional<Loss> loss(const Samples& samples, double middle) {
+  double least = std::min(samples.front().error, 0.0), regained = 0.0, before = 0.0, highest = 0.0;
+  for (const Sample& s : samples) {
+    least = std::min(least, s.error);
+    regained = std::max(regained, s.error - least);
+    highest = std::max(highest, s.error);
+    if (s.time <= middle) before = least;
+  }
+  const bool seen = samples.front().error > 0.5 * least;  // not lost before the first sample
+  if (!(least < -random_walk_level) || !seen || std::max(regained, highest) > -0.1 * least)
+    return std::nullopt;
+  return Loss{-least, before - least};
+}
+
+DriftVerdict judge(const Drift& drift, const Samples& samples, const Samples& blocks, const Line& line,
+                   double span) {
+  if (const auto lost = loss(samples, samples.back().time - 0.5 * span))
+    return lost->late < 0.25 * lost->all ? DriftVerdict::dissipated : DriftVerdict::secular;
   const double change = std::abs(drift.slope) * span;
   const double negligible = rounding_level * std::max(1.0, drift.max_abs);
   const bool significant = std::abs(drift.slope) > 3.0 * drift.slope_error;
   const bool large = change > std::max(drift.oscillation, negligible);
   if (significant && large && !dies_away(blocks, line)) return DriftVerdict::secular;
-  // A blow-up is no line; a random walk that happens to look like one is excluded by its size.
-  const bool tiny = drift.max_abs < random_walk_level;
-  if (drift.growth > (tiny ? 1.5 : 0.8) && keeps_growing(blocks)) return DriftVerdict::secular;
+  // A blow-up is no line.
+  if (drift.growth > 1.2 && moves_one_way(blocks) && keeps_growing(blocks)) return DriftVerdict::secular;
   if (drift.growth < 0.1) return DriftVerdict::bounded;
-  return tiny ? DriftVerdict::roundoff : DriftVerdict::undecided;
+  if (drift.max_abs < random_walk_level) return DriftVerdict::roundoff;
+  return walks(blocks, line) || keeps_growing(blocks) ? DriftVerdict::undecided : DriftVerdict::bounded;
 }
 
 }  // namespace
@@ -178,6 +216,10 @@ std::string_view to_string(DriftVerdict verdict) {
       return "secular";
     case DriftVerdict::roundoff:
       return "roundoff";
+    case DriftVerdict::dissipated:
+      return "dissipated";
+    case DriftVerdict::newton:
+      return "Newton residue";
     case DriftVerdict::undecided:
       return "undecided";
     case DriftVerdict::failed:
@@ -211,8 +253,21 @@ Drift measure_drift(std::span<const double> times, std::span<const double> error
   drift.slope = line.slope;
   drift.slope_error = slope_error(blocks, line, largest < random_walk_level);
   drift.growth = growth_exponent(samples, start);
-  if (largest > rounding_level) drift.verdict = judge(drift, blocks, line, span);
+  if (largest > rounding_level) drift.verdict = judge(drift, samples, blocks, line, span);
   return drift;
+}
+
+void allow_newton_residue(Drift& drift, double newton_tol) {
+  const bool open = drift.verdict == DriftVerdict::secular || drift.verdict == DriftVerdict::undecided;
+  if (open && drift.max_abs <= newton_tol) drift.verdict = DriftVerdict::newton;
+}
+
+std::string why_undecided(const Drift& drift) {
+  if (drift.verdict != DriftVerdict::undecided) return {};
+  if (std::isnan(drift.growth)) return fmt::format("fewer than {} samples", min_samples);
+  return fmt::format(
+      "it wanders (largest error ~ t^{:.2f}) without a slope that stands out: a longer run would tell",
+      drift.growth);
 }
 
 std::vector<double> jittered_times(double t0, double t1, int n, std::uint64_t seed) {

@@ -20,8 +20,9 @@ struct DriftScaling {
   int points = 0;                 ///< runs that count
 };
 
-/// Takes the secular runs if there are more of them than of bounded ones, else the bounded ones; roundoff,
-/// undecided and failed runs do not count. None if fewer than two different steps are left.
+/// Takes the secular runs if there are more of them than of bounded ones, else the bounded ones; runs of any
+/// other verdict do not count, nor slopes within three of their standard errors, nor drifts up to 1e-11,
+/// which may be roundoff. None if fewer than three different steps are left.
 std::optional<DriftScaling> drift_scaling(std::span<const DriftAtStep> runs);
 
 }  // namespace gnomon

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <span>
 
 #include "src/measure/statistics.hpp"
 
 namespace gnomon {
 namespace {
+
+constexpr double roundoff_level = 1e-10;  // of the quantity's scale; errors may scatter from here down
 
 struct LogPoint {
   double step;  // natural logarithms
@@ -23,6 +27,9 @@ struct Window {
   std::size_t count;
   double order;
 };
+
+// What an order is accurate to at best.
+double accuracy(double order) { return std::max(0.1, 0.02 * order); }
 
 double slope(const LogPoint& a, const LogPoint& b) { return (a.error - b.error) / (a.step - b.step); }
 
@@ -39,16 +46,62 @@ std::vector<double> local_slopes(LogPoints points) {
   return slopes;
 }
 
-// The longest run with one slope, at the smallest steps if several are as long.
-std::optional<Window> find_window(LogPoints points, double tolerance, std::size_t min_points) {
+// From the parabola of least squares. A change counts beyond three standard errors of its coefficient and
+// beyond what an order is accurate to; below six points, where standard errors mean little, beyond twice that
+// if the local slopes all move one way.
+bool slopes_move(LogPoints points) {
+  const auto n = static_cast<double>(points.size());
+  double middle = 0.0;
+  for (const LogPoint& p : points) middle += p.step / n;
+  double x2 = 0.0, x3 = 0.0;
+  for (const LogPoint& p : points) {
+    x2 += std::pow(p.step - middle, 2) / n;
+    x3 += std::pow(p.step - middle, 3) / n;
+  }
+  // Orthogonal polynomials 1, x, x^2 - x3 / x2 x - x2 over the points.
+  const auto square = [&](double x) { return x * x - x3 / x2 * x - x2; };
+  double mean = 0.0, xe = 0.0, qe = 0.0, qq = 0.0;
+  for (const LogPoint& p : points) {
+    const double x = p.step - middle, q = square(x);
+    mean += p.error / n;
+    xe += x * p.error / (n * x2);
+    qe += q * p.error;
+    qq += q * q;
+  }
+  const double curvature = qe / qq;
+  double rest = 0.0;
+  for (const LogPoint& p : points) {
+    const double x = p.step - middle;
+    rest += std::pow(p.error - mean - xe * x - curvature * square(x), 2);
+  }
+  const std::size_t last = points.size() - 1;
+  const double reach =
+      0.5 * (points[0].step + points[1].step) - 0.5 * (points[last - 1].step + points[last].step);
+  const double size = std::abs(2.0 * curvature * reach), least = accuracy(xe);
+  if (points.size() >= 6) return size > least && std::abs(curvature) > 3.0 * std::sqrt(rest / (n - 3.0) / qq);
+  const std::vector<double> slopes = local_slopes(points);
+  const bool one_way =
+      std::ranges::is_sorted(slopes) || std::ranges::is_sorted(slopes, std::ranges::greater{});
+  return one_way && size > 2.0 * least;
+}
+
+// The medians of the two local slopes at either end.
+double first_slope(LogPoints points) { return median(local_slopes(points.first(3))); }
+double last_slope(LogPoints points) { return median(local_slopes(points.last(3))); }
+
+// The longest run with one slope, at the smallest steps if several are as long; with `steady` one whose local
+// slopes do not move.
+std::optional<Window> find_window(LogPoints points, double tolerance, std::size_t min_points,
+                                  bool steady = true) {
   for (std::size_t count = points.size(); count >= min_points; --count) {
     for (std::size_t first = points.size() - count + 1; first-- > 0;) {
       const LogPoints run = points.subspan(first, count);
       const double order = median(pairwise_slopes(run));
       const auto fits = [&](double local) { return std::abs(local - order) <= tolerance; };
       // A slope within the tolerance of zero is a floor.
-      if (order > tolerance && std::ranges::all_of(local_slopes(run), fits))
-        return Window{first, count, order};
+      if (order <= tolerance || !std::ranges::all_of(local_slopes(run), fits)) continue;
+      if (steady && slopes_move(run)) continue;
+      return Window{first, count, order};
     }
   }
   return std::nullopt;
@@ -69,21 +122,55 @@ bool may_be_floor(LogPoints head, const Window& window, double tolerance, std::s
   return weak && twice_running(local_slopes(head), steep);
 }
 
-// Why the points at smaller steps contradict the window; empty if they do not. `tail` begins with the
-// window's last point.
-std::string contradiction(LogPoints tail, double order, double tolerance, std::size_t min_points) {
-  if (const auto other = find_window(tail, tolerance, min_points)) {
+// Why there is no order although there is a window, and where the local slopes go; empty if there is one.
+struct Objection {
+  std::string text;
+  double early = ObservedOrder::none, late = ObservedOrder::none;
+};
+
+// What the points at smaller steps have against the window. `tail` begins with the window's last point;
+// errors up to `roundoff` may scatter.
+Objection contradiction(LogPoints tail, double order, double tolerance, std::size_t min_points,
+                        double roundoff) {
+  if (const auto other = find_window(tail, tolerance, min_points, false)) {
     if (std::abs(other->order - order) <= tolerance) return {};
-    return fmt::format("order {:.2f} turns into {:.2f} below step {:.3g}", order, other->order,
-                       std::exp(tail[other->first].step));
+    const double late = last_slope(tail.subspan(other->first, other->count));
+    return {fmt::format("order {:.2f} turns into {:.2f} below step {:.3g}", order, other->order,
+                        std::exp(tail[other->first].step)),
+            order, late};
   }
-  if (tail.size() < min_points) return {};  // too few to tell a floor's beginning from another order
-  const auto shallow = [&](double local) { return local < 0.5 * order; };
+  if (tail.size() < 3) return {};
+  const std::vector<double> slopes = local_slopes(tail);
   const double overall = slope(tail.front(), tail.back());
-  if (shallow(overall) || twice_running(local_slopes(tail), shallow)) return {};  // the floor
+  const auto shallow = [&](double local) { return local < 0.5 * order; };
+  const auto above = [&](double local) { return local > order + tolerance; };
+  const auto below = [&](double local) { return local < order - tolerance; };
+  // Too few to tell a floor's beginning from another order, unless they fall faster.
+  if (tail.size() < min_points && !std::ranges::all_of(slopes, above)) return {};
+  if (shallow(overall) || twice_running(slopes, shallow)) return {};  // the floor
   if (std::abs(overall - order) <= tolerance) return {};
-  return fmt::format("order {:.2f} is left for {:.2f} at the smallest steps, which is no floor", order,
-                     overall);
+  const bool scatters = std::ranges::any_of(slopes, above) && std::ranges::any_of(slopes, below);
+  if (scatters && std::ranges::min(tail, {}, &LogPoint::error).error <= std::log(roundoff)) return {};
+  return {
+      fmt::format("order {:.2f} is left for {:.2f} at the smallest steps, which is no floor", order, overall),
+      order, last_slope(tail)};
+}
+
+// A run whose local slopes move, unless two thirds of it are steady: they have come to rest there.
+Objection restlessness(LogPoints all, const Window& wide, const std::optional<Window>& steady,
+                       double tolerance, std::size_t min_points) {
+  const std::size_t end = wide.first + wide.count;
+  if (steady) {
+    const bool within =
+        steady->first >= wide.first && steady->count < wide.count && steady->first + steady->count <= end;
+    if (!within || 3 * steady->count >= 2 * wide.count) return {};
+  }
+  const LogPoints run = all.subspan(wide.first, wide.count);
+  const double early = first_slope(run);
+  double late = last_slope(run);
+  if (const auto other = find_window(all.subspan(end - 1), tolerance, min_points, false))
+    late = last_slope(all.subspan(end - 1 + other->first, other->count));
+  return {fmt::format("the local slopes move from {:.2f} to {:.2f}", early, late), early, late};
 }
 
 // Largest first; what is no number comes last.
@@ -125,12 +212,52 @@ std::string why_no_window(LogPoints points, const OrderOptions& options, std::si
                      options.window_tolerance);
 }
 
+// All errors are at roundoff, and not because the last of them fell there.
+bool is_at_roundoff(const std::vector<OrderPoint>& points, std::size_t min_points, double unit) {
+  std::vector<double> errors;  // from the largest step
+  for (const OrderPoint& point : points)
+    if (point.usable && std::isfinite(point.error)) errors.push_back(point.error);
+  if (errors.size() < min_points || std::ranges::max(errors) > roundoff_level * unit) return false;
+  const auto third = static_cast<std::ptrdiff_t>(errors.size() / 3 + 1);
+  const double largest = median({errors.begin(), errors.begin() + third});
+  const double smallest = median({errors.end() - third, errors.end()});
+  return largest <= 10.0 * std::max(smallest, std::numeric_limits<double>::epsilon() * unit);
+}
+
+OrderFinding compare(const ObservedOrder& order, const std::optional<double>& declared) {
+  if (!declared) return OrderFinding::observed;
+  const bool off = std::abs(*order.observed - *declared) > accuracy(*declared);
+  const bool outside = *declared < order.interval[0] || *declared > order.interval[1];
+  return off && outside ? OrderFinding::differs : OrderFinding::as_declared;
+}
+
 }  // namespace
+
+std::string_view to_string(OrderFinding finding) {
+  switch (finding) {
+    case OrderFinding::observed:
+      return "observed";
+    case OrderFinding::as_declared:
+      return "as declared";
+    case OrderFinding::differs:
+      return "differs";
+    case OrderFinding::approaching:
+      return "approaching";
+    case OrderFinding::exact:
+      return "exact";
+    case OrderFinding::roundoff:
+      return "roundoff";
+    case OrderFinding::none:
+      return "none";
+  }
+  return "none";
+}
 
 ObservedOrder observe_order(std::vector<OrderPoint> points, const OrderOptions& options) {
   const auto coarser = [](const auto& a, const auto& b) { return larger(a.step, b.step); };
   std::stable_sort(points.begin(), points.end(), coarser);
 
+  const std::vector<OrderPoint> given = points;
   ObservedOrder result;
   result.dropped = take_out_unfit(points, options);
   std::vector<LogPoint> logs;
@@ -138,19 +265,37 @@ ObservedOrder observe_order(std::vector<OrderPoint> points, const OrderOptions& 
   const LogPoints all(logs);
   const auto min_points = static_cast<std::size_t>(std::max(options.min_points, 3));
 
-  const auto window = find_window(all, options.window_tolerance, min_points);
-  if (!window) {
-    result.verdict = "not asymptotic: " + why_no_window(all, options, min_points);
+  const double unit = std::isfinite(options.scale) ? options.scale : 1.0;
+  const auto wide = find_window(all, options.window_tolerance, min_points, false);
+  if (!wide) {
+    if (!is_at_roundoff(given, min_points, unit)) {
+      result.verdict = "not asymptotic: " + why_no_window(all, options, min_points);
+    } else if (options.declared) {
+      result.finding = OrderFinding::roundoff;
+      result.verdict = "not asymptotic: the error is at roundoff at every step";
+    } else {
+      result.finding = OrderFinding::exact;
+      result.verdict = "exact: the error is at roundoff at every step";
+    }
     return result;
   }
-  const std::size_t last = window->first + window->count - 1;
-  std::string objection =
-      contradiction(all.subspan(last), window->order, options.window_tolerance, min_points);
-  if (may_be_floor(all.first(window->first + 1), *window, options.window_tolerance, min_points))
-    objection = fmt::format("slope {:.2f} of {} points follows a steeper one: a floor?", window->order,
-                            window->count);
-  if (!objection.empty()) {
-    result.verdict = "not asymptotic: " + objection;
+  const auto window = find_window(all, options.window_tolerance, min_points);
+  Objection objection = restlessness(all, *wide, window, options.window_tolerance, min_points);
+  const std::size_t last = window ? window->first + window->count - 1 : 0;
+  if (window && objection.text.empty())
+    objection = contradiction(all.subspan(last), window->order, options.window_tolerance, min_points,
+                              roundoff_level * unit);
+  const Window& doubtful = window ? *window : *wide;
+  if (may_be_floor(all.first(doubtful.first + 1), doubtful, options.window_tolerance, min_points))
+    objection = {fmt::format("slope {:.2f} of {} points follows a steeper one: a floor?", doubtful.order,
+                             doubtful.count)};
+  if (!objection.text.empty()) {
+    result.verdict = "not asymptotic: " + objection.text;
+    if (options.declared &&
+        std::abs(objection.late - *options.declared) < 0.5 * std::abs(objection.early - *options.declared)) {
+      result.finding = OrderFinding::approaching;
+      result.verdict += fmt::format("; approaching {:g}", *options.declared);
+    }
     return result;
   }
 
@@ -166,6 +311,9 @@ ObservedOrder observe_order(std::vector<OrderPoint> points, const OrderOptions& 
   result.step_from = points[window->first].step;
   result.step_to = points[last].step;
   result.verdict = fmt::format("order {:.2f} from {} points", window->order, window->count);
+  result.finding = compare(result, options.declared);
+  if (result.finding == OrderFinding::differs)
+    result.verdict += fmt::format(", differs from the declared {:g}", *options.declared);
   return result;
 }
 

@@ -17,8 +17,11 @@ std::vector<double> default_tols(bool quick) {
 }
 
 std::vector<Setting> work_ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
-  return settings(scheme, options, step_ladder(scene, options.quick ? 8 : 11, 1.0),
-                  default_tols(options.quick));
+  // High orders fall to roundoff within a few doublings, from larger steps.
+  const std::vector<double> steps = is_of_high_order(scene, scheme)
+                                        ? step_ladder(scene, scheme, options.quick ? 13 : 17, 0.5)
+                                        : step_ladder(scene, scheme, options.quick ? 8 : 11, 1.0);
+  return settings(scheme, options, steps, default_tols(options.quick));
 }
 
 /// Errors against one of the costs; not what a limit stopped.

@@ -14,7 +14,7 @@ std::vector<double> default_tols() {
 }
 
 std::vector<Setting> order_ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
-  return settings(scheme, options, step_ladder(scene, options.quick ? 17 : 21, 0.5), default_tols());
+  return settings(scheme, options, step_ladder(scene, scheme, options.quick ? 17 : 21, 0.5), default_tols());
 }
 
 // Runs once more, with a hundredth of the Newton tolerance, at a step of each floor whose scheme iterates.
@@ -79,8 +79,9 @@ OrderRow observed_order(const SceneStudy& study, const SchemeInfo& scheme, std::
   OrderOptions options;
   options.scale = info.saturation;
   if (!study.reference.bounds.empty()) options.bound = study.reference.bounds.back()[metric];
-  return {&scheme, std::string(info.name), observe_order(points, options),
-          scheme.order_for(study.scene.model->load_class(), info.name), find_floor(points, options)};
+  options.declared = scheme.order_for(study.scene.model->load_class(), info.name);
+  return {&scheme, std::string(info.name), observe_order(points, options), options.declared,
+          find_floor(points, options)};
 }
 
 FloorKind floor_kind_of(double error, double tightened) {

@@ -221,6 +221,7 @@ void Document::add_orders(const std::string& scene, const std::vector<OrderRow>&
     json["expected"] = optional(row.expected);
     json["points"] = order.points;
     json["verdict"] = order.verdict;
+    json["finding"] = to_string(order.finding);
     json["dropped"] = Json::array();
     for (const DroppedPoint& point : order.dropped)
       json["dropped"].push_back(
@@ -235,6 +236,7 @@ void Document::add_drifts(const DriftStudy& study) {
   for (const DriftRow& row : study.drifts) {
     const Row& run = study.rows[row.row];
     const auto scaling = h_scaling(study, *run.scheme, row.invariant.info.name);
+    const std::string why = run.result.status == Status::ok ? why_undecided(row.drift) : "";
     json_["drifts"].push_back(
         {{"scene", study.scene.name},
          {"integrator", run.scheme->name},
@@ -247,6 +249,7 @@ void Document::add_drifts(const DriftStudy& study) {
          {"slope_error", finite_or_null(row.drift.slope_error)},
          {"growth", finite_or_null(row.drift.growth)},
          {"verdict", run.result.status == Status::ok ? to_string(row.drift.verdict) : "failed"},
+         {"undecided_because", why.empty() ? Json(nullptr) : Json(why)},
          {"h_scaling", scaling ? finite_or_null(scaling->exponent) : Json(nullptr)},
          {"h_scaling_of", scaling ? Json(scaling->of_slope ? "slope" : "max_drift") : Json(nullptr)}});
   }

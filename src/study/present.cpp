@@ -70,6 +70,34 @@ void name_linear_solver(const SceneStudy& study, const std::vector<const SchemeI
                          schemes[k]->uses.linear_solver ? Cell(std::string(to_string(solver))) : Cell{});
 }
 
+Cell order_cell(const ObservedOrder& order, const std::optional<double>& declared) {
+  switch (order.finding) {
+    case OrderFinding::approaching:
+      return {fmt::format("→ {:g}", declared.value_or(0.0)), ""};
+    case OrderFinding::exact:
+    case OrderFinding::roundoff:
+      return {std::string(to_string(order.finding)), ""};
+    default:
+      break;
+  }
+  if (!order.observed) return {};
+  Cell cell = output::number_cell(*order.observed, 3);
+  if (order.finding == OrderFinding::differs) cell.text += fmt::format(" ({:g})", declared.value_or(0.0));
+  return cell;
+}
+
+std::string undecided_note(const DriftStudy& study) {
+  std::string text;
+  for (const DriftRow& row : study.drifts) {
+    const Row& run = study.rows[row.row];
+    const std::string why = why_undecided(row.drift);
+    if (why.empty() || run.result.status != Status::ok) continue;
+    text += fmt::format("{}{}, {}, {}: {}", text.empty() ? "undecided: " : "; ", run.scheme->name,
+                        run.setting.text(), row.invariant.info.name, why);
+  }
+  return text;
+}
+
 Table runs_table(const SceneStudy& study, const std::string& caption) {
   Table table;
   table.caption = caption;
@@ -156,14 +184,22 @@ Table orders_table(const Convergence& study) {
   for (const OrderRow& row : study.orders) {
     const ObservedOrder& order = row.order;
     const double none = std::nan("");
-    table.rows.push_back(
-        {std::string(row.scheme->name), row.metric, output::number_cell(order.observed.value_or(none), 3),
-         output::number_cell(order.observed ? order.interval[0] : none, 3),
-         output::number_cell(order.observed ? order.interval[1] : none, 3),
-         output::number_cell(row.expected.value_or(none), 2), output::count_cell(order.points), order.verdict,
-         output::number_cell(row.floor ? row.floor->level : none, 2),
-         row.floor_kind ? Cell(std::string(to_string(*row.floor_kind))) : Cell{}});
+    table.rows.push_back({std::string(row.scheme->name), row.metric,
+                          order.finding == OrderFinding::exact || order.finding == OrderFinding::roundoff
+                              ? order_cell(order, row.expected)
+                              : output::number_cell(order.observed.value_or(none), 3),
+                          output::number_cell(order.observed ? order.interval[0] : none, 3),
+                          output::number_cell(order.observed ? order.interval[1] : none, 3),
+                          output::number_cell(row.expected.value_or(none), 2),
+                          output::count_cell(order.points), order.verdict,
+                          output::number_cell(row.floor ? row.floor->level : none, 2),
+                          row.floor_kind ? Cell(std::string(to_string(*row.floor_kind))) : Cell{}});
   }
+  table.notes.push_back(
+      "observed order: exact, roundoff: the error is at roundoff at every step, of a scheme without or with "
+      "a "
+      "declared order; — not asymptotic; it differs from the declared one by more than 0.1, 2 % and its "
+      "quartiles where the verdict says so");
   if (std::ranges::any_of(study.orders, [](const OrderRow& row) { return row.floor.has_value(); }))
     table.notes.push_back(
         "floor: where the error stops falling with the step; Newton: a run with a hundredth of the Newton "
@@ -236,6 +272,7 @@ Table drift_table(const DriftStudy& study) {
                           status});
   }
   table.notes.push_back("drift relative to the invariant's scale, at jittered times");
+  if (const std::string note = undecided_note(study); !note.empty()) table.notes.push_back(note);
   table.notes.push_back(reference_line(study));
   return table;
 }
@@ -279,7 +316,8 @@ Table drift_runs_table(const DriftStudy& study) {
   }
   table.notes.push_back(
       "h-scaling: exponent s of the largest drift (bounded) or its slope (secular) ~ h^s over the scheme's "
-      "steps that ended well");
+      "steps that ended well; of three steps or more, drifts above 1e-11");
+  if (const std::string note = undecided_note(study); !note.empty()) table.notes.push_back(note);
   table.notes.push_back(
       "largest drift relative to the invariant's scale, at jittered times; of a run that failed, up to the "
       "time "

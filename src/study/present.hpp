@@ -31,6 +31,17 @@ output::Cell error_cell(const Row& row, std::size_t metric);
 output::Cell microseconds_cell(const std::optional<LevelCost>& cost);
 output::Cell evaluations_cell(const std::optional<LevelCost>& cost);
 
+/// The observed order, in brackets the declared one where it differs; a mark where there is none.
+output::Cell order_cell(const ObservedOrder& order, const std::optional<double>& declared);
+/// What the marks mean, for a note.
+inline constexpr const char* order_marks =
+    "in brackets the declared order where the observed one differs; → 4: no order yet, the local slopes "
+    "still "
+    "move towards the declared one; exact, roundoff: no order, the error is at roundoff at every step, of a "
+    "scheme without or with a declared order; — no asymptotic range";
+/// Why drifts are undecided, each with its integrator, setting and invariant; empty if none is.
+std::string undecided_note(const DriftStudy& study);
+
 /// One row a run: setting, errors, evaluations, CPU time, status.
 output::Table runs_table(const SceneStudy& study, const std::string& caption);
 /// The same of a comparison, the Pareto front marked.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/study/present.hpp"
+
 namespace gnomon {
 
 output::Table order_matrix(const std::vector<Convergence>& studies) {
@@ -25,19 +27,11 @@ output::Table order_matrix(const std::vector<Convergence>& studies) {
     for (const SchemeInfo* scheme : schemes) {
       const auto row = std::find_if(study.orders.begin(), study.orders.end(),
                                     [&](const OrderRow& each) { return each.scheme == scheme; });
-      if (row == study.orders.end() || !row->order.observed) {
-        cells.emplace_back();
-        continue;
-      }
-      output::Cell cell = output::number_cell(*row->order.observed, 3);
-      if (row->expected && std::abs(*row->order.observed - *row->expected) > 0.1)
-        cell.text += fmt::format(" ({:g})", *row->expected);
-      cells.push_back(cell);
+      cells.push_back(row == study.orders.end() ? output::Cell() : order_cell(row->order, row->expected));
     }
     table.rows.push_back(std::move(cells));
   }
-  table.notes.push_back(
-      "windowed robust slope; — no asymptotic range; in brackets the declared order where it differs");
+  table.notes.push_back(std::string("windowed robust slope; ") + order_marks);
   return table;
 }
 

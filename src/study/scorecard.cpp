@@ -103,6 +103,8 @@ nlohmann::ordered_json scorecard_json(const Scorecard& card) {
     item["integrator"] = score.scheme->name;
     item["observed_order"] = number(score.order.observed);
     item["declared_order"] = number(score.declared);
+    item["order_finding"] =
+        score.scheme->stepping == Stepping::fixed ? Json(to_string(score.order.finding)) : Json(nullptr);
     item["costs"] = Json::array();
     for (std::size_t k = 0; k < card.levels.size(); ++k) {
       const auto &seconds = score.seconds[k], &evaluations = score.evaluations[k];
@@ -117,6 +119,10 @@ nlohmann::ordered_json scorecard_json(const Scorecard& card) {
           {"verdict", score.long_run == Status::ok ? to_string(score.energy->verdict) : "failed"},
           {"max_drift", number(score.energy->max_abs)},
           {"status", to_string(score.long_run)}};
+    if (const std::string why =
+            score.energy && score.long_run == Status::ok ? why_undecided(*score.energy) : "";
+        !why.empty())
+      item["energy"]["undecided_because"] = why;
     item["largest_step"] =
         score.breaking && score.breaking->survived > 0.0 ? number(score.breaking->survived) : Json(nullptr);
     item["breaks_at"] = score.breaking ? number(score.breaking->breaks) : Json(nullptr);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <span>
 
 #include "src/study/present.hpp"
 #include "src/study/scorecard.hpp"
@@ -9,31 +11,27 @@
 namespace gnomon {
 namespace {
 
-output::Cell score_order_cell(const Score& score) {
-  if (!score.order.observed) return {};
-  output::Cell cell = output::number_cell(*score.order.observed, 3);
-  if (score.declared && std::abs(*score.order.observed - *score.declared) > 0.1)
-    cell.text += fmt::format(" ({:g})", *score.declared);
-  return cell;
-}
-
 /// From the best to the worst.
 int badness(const Score& score) {
-  if (score.long_run != Status::ok) return 5;
+  if (score.long_run != Status::ok) return 7;
   if (!score.energy) return -1;
   switch (score.energy->verdict) {
     case DriftVerdict::roundoff:
       return 0;
-    case DriftVerdict::bounded:
+    case DriftVerdict::newton:
       return 1;
-    case DriftVerdict::undecided:
+    case DriftVerdict::bounded:
       return 2;
-    case DriftVerdict::secular:
+    case DriftVerdict::undecided:
       return 3;
-    case DriftVerdict::failed:
+    case DriftVerdict::dissipated:
       return 4;
+    case DriftVerdict::secular:
+      return 5;
+    case DriftVerdict::failed:
+      return 6;
   }
-  return 4;
+  return 6;
 }
 
 std::string energy_text(const Score& score) {
@@ -53,16 +51,25 @@ struct ScoreOn {
 
 output::Cell joint_order_cell(const std::vector<ScoreOn>& all) {
   std::vector<double> orders;
+  std::map<std::string, std::size_t> marks;
   std::size_t fixed = 0;
   for (const ScoreOn& on : all) {
     fixed += on.score->scheme->stepping == Stepping::fixed ? 1 : 0;
-    if (on.score->order.observed) orders.push_back(*on.score->order.observed);
+    const OrderFinding finding = on.score->order.finding;
+    if (on.score->order.observed)
+      orders.push_back(*on.score->order.observed);
+    else if (on.score->scheme->stepping == Stepping::fixed && finding != OrderFinding::none)
+      ++marks[order_cell(on.score->order, on.score->declared).text];
   }
-  if (orders.empty()) return {};
+  std::string others;
+  for (const auto& [mark, count] : marks)
+    others += (others.empty() ? "" : ", ") + mark + of_all(count, fixed);
+  if (orders.empty()) return others.empty() ? output::Cell() : output::Cell(others, "");
   const auto [least, most] = std::ranges::minmax_element(orders);
   output::Cell cell = output::number_cell(*least, 3);
   if (*most - *least > 0.1) cell.text += " to " + output::number(*most, 3);
   cell.text += of_all(orders.size(), fixed);
+  if (!others.empty()) cell.text += ", " + others;
   return cell;
 }
 
@@ -156,6 +163,20 @@ std::string largest_step_note() {
          survival_line({});
 }
 
+/// Why, in a note.
+void add_undecided(output::Table& table, std::span<const Scorecard> cards) {
+  std::string text;
+  for (const Scorecard& card : cards)
+    for (const Score& score : card.scores) {
+      const std::string why =
+          score.energy && score.long_run == Status::ok ? why_undecided(*score.energy) : "";
+      if (!why.empty())
+        text += fmt::format("{}{} on {}: {}", text.empty() ? "undecided: " : "; ", score.scheme->name,
+                            card.comparison.scene.name, why);
+    }
+  if (!text.empty()) table.notes.push_back(text);
+}
+
 std::string exponent_text(double level) { return fmt::format("{:.0e}", level); }
 
 }  // namespace
@@ -210,8 +231,10 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
   table.notes.push_back(fmt::format(
       "{} to an error: times the least of the schemes that step, geometric mean over the scenes; where "
       "already "
-      "the loosest setting reaches it, the cost of that one; — not reached; order: — no asymptotic range",
+      "the loosest setting reaches it, the cost of that one; — not reached",
       what));
+  table.notes.push_back(std::string("order: ") + order_marks);
+  add_undecided(table, cards);
   table.notes.push_back(
       "energy: the worst of the scenes that keep one, over a thousand time scales, a tenth of one the step, "
       "1e-8 the "
@@ -239,7 +262,9 @@ output::Table scorecard_table(const Scorecard& card) {
                                              {"how", "fails beyond", Align::left},
                                              {"failed", "failed runs", Align::left}});
   for (const Score& score : card.scores) {
-    std::vector<Cell> cells{std::string(score.scheme->name), score_order_cell(score)};
+    std::vector<Cell> cells{std::string(score.scheme->name), score.scheme->stepping == Stepping::fixed
+                                                                 ? order_cell(score.order, score.declared)
+                                                                 : Cell()};
     for (std::size_t k = 0; k < card.levels.size(); ++k) {
       cells.push_back(microseconds_cell(score.seconds[k]));
       cells.push_back(evaluations_cell(score.evaluations[k]));
@@ -265,12 +290,13 @@ output::Table scorecard_table(const Scorecard& card) {
   }
   table.notes.push_back(reference_line(card.comparison));
   table.notes.push_back(
-      fmt::format("order and cost of the {} error at t = {:g} s, order in brackets: the declared one where "
-                  "it differs; ≤: "
-                  "already the loosest setting reaches the level; — not reached, or no asymptotic range",
+      fmt::format("order and cost of the {} error at t = {:g} s; ≤: already the loosest setting reaches the "
+                  "level; — not reached",
                   metric.name, scene.t_end));
+  table.notes.push_back(std::string("order: ") + order_marks);
   table.notes.push_back(fmt::format("energy to t = {:g} s at a step of {:.3g} s or a tolerance of 1e-8",
                                     card.long_t_end, 0.1 * scene.model->time_scale()));
+  add_undecided(table, {&card, 1});
   table.notes.push_back("largest step: " + largest_step_note());
   return table;
 }

@@ -164,7 +164,14 @@ Row Runner::run_here(const Scene& scene, const ReferenceStates& reference, const
   row.options = options.scheme;
   row.result = pair->run(scene.model->get(), spec(scene, setting, options));
   row.invariants = summarise_invariants(*scene.model, row.result.invariants);
-  for (InvariantSummary& invariant : row.invariants) thin(invariant);
+  for (InvariantSummary& invariant : row.invariants) {
+    const std::string& name = invariant.info.name;
+    const bool conserved =
+        name == "energy" ? scheme.conserves_energy : scheme.conserves_momentum && name.ends_with("momentum");
+    if (conserved && row.result.cost.newton_iterations > 0)
+      allow_newton_residue(invariant.measured, options.scheme.newton_tol);
+    thin(invariant);
+  }
   row.result.invariants = {};
   if (row.result.status != Status::ok || reference.states.empty()) return row;
   row.error = scene.model->distance(row.result.state, reference.states.back());
@@ -282,10 +289,33 @@ std::vector<const SchemeInfo*> select(const Catalogue& catalogue, const Scene& s
   return chosen;
 }
 
-std::vector<double> step_ladder(const Scene& scene, int count, double ratio) {
-  const double first = std::max(8.0, std::ceil(scene.t_end / (0.5 * scene.model->time_scale())));
+namespace {
+
+/// The least number of equal steps, at most `most`, that meets every break; 1 if there is none.
+long count_that_meets(double t_end, const std::vector<double>& breaks, long most) {
+  for (long count = 1; count <= most; ++count)
+    if (!plan_steps(t_end, t_end / static_cast<double>(count), breaks).misses_break) return count;
+  return 1;
+}
+
+}  // namespace
+
+bool is_of_high_order(const Scene& scene, const SchemeInfo& scheme) {
+  return scheme.stepping == Stepping::fixed &&
+         scheme.order_for(scene.model->load_class()).value_or(0.0) >= 6.0;
+}
+
+std::vector<double> step_ladder(const Scene& scene, const SchemeInfo& scheme, int count, double ratio) {
+  const double high = is_of_high_order(scene, scheme) ? 8.0 : 1.0;
+  const double first = std::max(8.0, std::ceil(scene.t_end / (0.5 * high * scene.model->time_scale())));
+  const auto unit = static_cast<double>(
+      count_that_meets(scene.t_end, scene.model->breaks(), std::lround(std::min(4.0 * first, 1e4))));
   std::vector<double> steps;
-  for (int k = 0; k < count; ++k) steps.push_back(scene.t_end / std::round(first * std::pow(2.0, ratio * k)));
+  double last = 0.0;
+  for (int k = 0; k < count; ++k) {
+    last = std::max(last + unit, unit * std::round(first * std::pow(2.0, ratio * k) / unit));
+    steps.push_back(scene.t_end / last);
+  }
   return steps;
 }
 

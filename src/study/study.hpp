@@ -142,8 +142,14 @@ std::string misfit(const Catalogue& catalogue, const Scene& scene, const std::st
 std::vector<const SchemeInfo*> select(const Catalogue& catalogue, const Scene& scene,
                                       const StudyOptions& options, std::string_view option = "--integrators");
 
-/// Steps t_end / N with N = N0 2^(k ratio), N0 from the time scale of the motion; `count` of them.
-std::vector<double> step_ladder(const Scene& scene, int count, double ratio);
+/// Whether a scheme of equal steps declares order 6 or more on the scene: its error is at roundoff at steps
+/// at which others begin.
+bool is_of_high_order(const Scene& scene, const SchemeInfo& scheme);
+
+/// Steps t_end / N with N = N0 2^(k ratio); `count` of them. The first is half the time scale of the motion,
+/// or four of them for schemes of high order. N is rounded to a multiple that meets the breaks of the model's
+/// data where a small one does.
+std::vector<double> step_ladder(const Scene& scene, const SchemeInfo& scheme, int count, double ratio);
 
 /// The settings of one scheme: the given ones, else the ladder of steps or tolerances.
 std::vector<Setting> settings(const SchemeInfo& scheme, const StudyOptions& options,

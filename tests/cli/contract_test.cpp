@@ -171,7 +171,8 @@ TEST_CASE("cli: converge reports observed orders in its JSON", "[cli]") {
   for (const Json& order : json["orders"]) {
     INFO(order.dump(1));
     CHECK(keys_of(order) == Keys{"scene", "integrator", "metric", "observed", "interval", "expected",
-                                 "points", "verdict", "dropped", "floor", "floor_kind"});
+                                 "points", "verdict", "finding", "dropped", "floor", "floor_kind"});
+    CHECK(order["finding"] == "as declared");
     CHECK(order["scene"] == "asymmetric-free-top");
     CHECK((order["metric"] == "orientation" || order["metric"] == "momentum"));
     const double expected = order["integrator"] == "munjiza" ? 2.0 : 4.0;
@@ -210,6 +211,7 @@ TEST_CASE("cli: no order is given where there are fewer than four points", "[cli
   REQUIRE(json["orders"].size() == 2);
   for (const Json& order : json["orders"]) {
     CHECK(order["observed"].is_null());
+    CHECK(order["finding"] == "none");
     CHECK(order["interval"].is_null());
   }
 }
@@ -225,8 +227,8 @@ TEST_CASE("cli: drift reports every invariant of every run in its JSON", "[cli]"
   REQUIRE(json["drifts"].size() == 2 * json["runs"][0]["invariants"].size());
   for (const Json& drift : json["drifts"]) {
     CHECK(keys_of(drift) == Keys{"scene", "integrator", "step", "tol", "invariant", "max_drift",
-                                 "oscillation", "slope", "slope_error", "growth", "verdict", "h_scaling",
-                                 "h_scaling_of"});
+                                 "oscillation", "slope", "slope_error", "growth", "verdict",
+                                 "undecided_because", "h_scaling", "h_scaling_of"});
     CHECK(json["runs"][0]["invariants"].contains(drift["invariant"].get<std::string>()));
     CHECK(drift["max_drift"] >= 0.0);
     CHECK(drift["h_scaling"].is_null());  // one step

@@ -11,10 +11,12 @@
 
 #include "tests/catch.hpp"
 
+using gnomon::allow_newton_residue;
 using gnomon::Drift;
 using gnomon::DriftVerdict;
 using gnomon::jittered_times;
 using gnomon::measure_drift;
+using gnomon::why_undecided;
 
 namespace {
 
@@ -294,4 +296,78 @@ TEST_CASE("measure: jittered times are stratified, reproducible and end at the e
   CHECK(jittered_times(0.0, 1.0, 0, 1).empty());
   CHECK_THROWS_AS(jittered_times(1.0, 1.0, 5, 1), std::invalid_argument);
   CHECK_THROWS_AS(jittered_times(0.0, not_a_number, 5, 1), std::invalid_argument);
+}
+
+TEST_CASE("measure: energy lost and not regained is dissipated once the loss levels off") {
+  CHECK(verdict_of([](double t) { return -0.9 * (1.0 - std::exp(-20.0 * t / span)); }) == "dissipated");
+  CHECK(verdict_of([](double t) { return -0.9 * (1.0 - std::exp(-3.0 * t / span)); }) == "dissipated");
+  CHECK(verdict_of([](double t) { return -0.2 * std::sqrt(t / span); }) == "secular");
+  CHECK(verdict_of([](double t) { return -1e-6 * t; }) == "secular");
+  // A ripple of a twentieth of the loss does not hide it, one of a fifth is no loss any more.
+  const auto ripple = [](double size) {
+    return [=](double t) {
+      return -0.9 * (1.0 - std::exp(-20.0 * t / span)) * (1.0 + 0.5 * size * std::sin(t));
+    };
+  };
+  CHECK(verdict_of(ripple(0.05)) == "dissipated");
+  CHECK(verdict_of(ripple(0.2)) != "dissipated");
+  CHECK(verdict_of(ripple(0.2)) != "secular");
+  // A gain is not a loss, nor is what was off from the start, nor a random walk.
+  CHECK(verdict_of([](double t) { return 0.9 * (1.0 - std::exp(-20.0 * t / span)); }) != "dissipated");
+  CHECK(verdict_of([](double) { return -0.9; }) == "bounded");
+  int lost = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed)
+    lost += drift_of_walk(1e-6, 0.0, seed).verdict == DriftVerdict::dissipated;
+  CHECK(lost <= 2);
+}
+
+TEST_CASE("measure: growth of a random walk alone is not secular") {
+  int secular = 0, bounded = 0;
+  for (unsigned seed = 1; seed <= 400; ++seed) {
+    const DriftVerdict verdict = drift_of_walk(1e-6, 0.0, seed).verdict;
+    secular += verdict == DriftVerdict::secular;
+    bounded += verdict == DriftVerdict::bounded;
+  }
+  INFO("secular " << secular << " bounded " << bounded);
+  CHECK(secular <= 20);
+  CHECK(bounded <= 60);
+  // A jump in the middle has alpha > 1 and no slope beyond its own error.
+  const Drift jump = drift_of([](double t) { return 2e-13 * (t > 0.6 * span ? 1.0 : 0.1) * std::sin(t); });
+  CHECK(jump.growth > 0.2);
+  CHECK(jump.verdict == DriftVerdict::roundoff);
+}
+
+TEST_CASE("measure: an error that returns to its line is bounded though its maximum creeps up") {
+  // Correlated over a tenth of a block, with the extremes of 2000 samples.
+  int bounded = 0, secular = 0;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const Drift drift = drift_of_walk(1e-6, 0.0, seed, std::exp(-1.0 / 16.0));
+    bounded += drift.verdict == DriftVerdict::bounded;
+    secular += drift.verdict == DriftVerdict::secular;
+  }
+  INFO("bounded " << bounded << " secular " << secular);
+  CHECK(bounded >= 90);
+  CHECK(secular <= 2);
+}
+
+TEST_CASE("measure: undecided drifts say why, others do not") {
+  CHECK(why_undecided(drift_of([](double t) { return 1e-6 * t; }, 31)) == "fewer than 32 samples");
+  const Drift slow = drift_of([](double t) { return 1e-3 * (1.0 - std::cos(6.283185307 * t / span)); });
+  CHECK(why_undecided(slow).find("a longer run would tell") != std::string::npos);
+  CHECK(why_undecided(drift_of([](double t) { return 1e-6 * t; })).empty());
+  CHECK(why_undecided(drift_of([](double t) { return std::sin(t); })).empty());
+}
+
+TEST_CASE("measure: what Newton's tolerance leaves is told from a drift, up to that tolerance") {
+  const auto allowed = [](double size, double tol) {
+    Drift drift = drift_of([=](double t) { return size * t / span; });
+    allow_newton_residue(drift, tol);
+    return drift.verdict;
+  };
+  CHECK(allowed(9e-11, 1e-10) == DriftVerdict::newton);
+  CHECK(allowed(1.1e-10, 1e-10) == DriftVerdict::secular);
+  CHECK(allowed(5e-14, 1e-10) == DriftVerdict::roundoff);
+  Drift bounded = drift_of([](double t) { return 1e-11 * std::sin(t); });
+  allow_newton_residue(bounded, 1e-10);
+  CHECK(bounded.verdict == DriftVerdict::bounded);
 }

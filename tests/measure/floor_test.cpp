@@ -156,5 +156,16 @@ TEST_CASE("measure: bounded drift ~ h^2 and secular slope ~ h^3 give their expon
   CHECK_FALSE(drift_scaling(drifts_at(steps, DriftVerdict::roundoff, 2.0)));
   CHECK_FALSE(drift_scaling(drifts_at(steps, DriftVerdict::failed, 2.0)));
   CHECK_FALSE(drift_scaling(drifts_at({0.1}, DriftVerdict::bounded, 2.0)));
-  CHECK_FALSE(drift_scaling(drifts_at({0.1, 0.1}, DriftVerdict::bounded, 2.0)));
+  CHECK_FALSE(drift_scaling(drifts_at({0.1, 0.05}, DriftVerdict::bounded, 2.0)));
+  CHECK_FALSE(drift_scaling(drifts_at({0.1, 0.1, 0.05, 0.05}, DriftVerdict::bounded, 2.0)));
+  CHECK_FALSE(drift_scaling(drifts_at(steps, DriftVerdict::newton, 2.0)));
+  CHECK_FALSE(drift_scaling(drifts_at(steps, DriftVerdict::dissipated, 2.0)));
+  // Nor what may be roundoff, or a slope within its error.
+  auto tiny = drifts_at(steps, DriftVerdict::secular, 2.0);
+  for (DriftAtStep& run : tiny) run.drift.max_abs = 9e-12;
+  CHECK_FALSE(drift_scaling(tiny));
+  for (DriftAtStep& run : tiny) run.drift.max_abs = 1.1e-11;
+  CHECK(drift_scaling(tiny));
+  for (DriftAtStep& run : tiny) run.drift.slope_error = 0.4 * std::abs(run.drift.slope);
+  CHECK_FALSE(drift_scaling(tiny));
 }

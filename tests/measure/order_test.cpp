@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 
 using gnomon::observe_order;
 using gnomon::ObservedOrder;
+using gnomon::OrderFinding;
 using gnomon::OrderOptions;
 using gnomon::OrderPoint;
 
@@ -343,4 +345,116 @@ TEST_CASE("measure: the order does not depend on how the points are sorted") {
   CHECK(shuffled.observed == sorted.observed);
   CHECK(shuffled.step_from == sorted.step_from);
   CHECK(shuffled.dropped.size() == sorted.dropped.size());
+}
+
+TEST_CASE("measure: scatter at roundoff behind an order is a floor, the same at large errors is not") {
+  // The last seven errors of a scheme of order 4 against a closed form, steps by a factor sqrt 2.
+  const std::vector<double> scatter{1.12e-11, 6.48e-12, 6.88e-13, 2.93e-13, 4.61e-14, 3.12e-13};
+  std::vector<OrderPoint> points;
+  for (int k = -10; k < 0; ++k)
+    points.push_back({std::exp2(-0.5 * k), 1.12e-11 * std::exp2(-2.0 * k), true, ""});
+  for (std::size_t k = 0; k < scatter.size(); ++k)
+    points.push_back({std::exp2(-0.5 * static_cast<double>(k)), scatter[k], true, ""});
+  const ObservedOrder result = observe_order(points, with_scale_one());
+  INFO(result.verdict);
+  REQUIRE(result.observed);
+  CHECK(std::abs(*result.observed - 4.0) <= 0.01);
+  CHECK(result.points == 11);
+  for (OrderPoint& point : points) point.error *= 1e6;
+  const ObservedOrder large = observe_order(points, {});
+  INFO(large.verdict);
+  CHECK(refused(large));
+  CHECK(large.verdict.find("which is no floor") != std::string::npos);
+}
+
+TEST_CASE("measure: an order whose local slopes keep moving is not reported, one that comes to rest is") {
+  const auto moving = [](double from, double by, int count) {
+    std::vector<double> slopes;
+    for (int k = 0; k < count; ++k) slopes.push_back(from + by * k);
+    return from_errors(falling(1e-2, slopes));
+  };
+  OrderOptions options = with_scale_one();
+  options.declared = 4.0;
+  const ObservedOrder down = observe_order(moving(4.45, -0.05, 10), options);
+  INFO(down.verdict);
+  CHECK(refused(down));
+  CHECK(down.finding == OrderFinding::approaching);
+  CHECK(down.verdict.find("the local slopes move from") != std::string::npos);
+  CHECK(down.verdict.ends_with("; approaching 4"));
+  // Away from the declared order it approaches nothing.
+  const ObservedOrder away = observe_order(moving(4.0, 0.05, 10), options);
+  CHECK(refused(away));
+  CHECK(away.finding == OrderFinding::none);
+  // A tenth in all is little enough.
+  const ObservedOrder little = observe_order(moving(4.04, -0.008, 11), options);
+  REQUIRE(little.observed);
+  CHECK(little.points == 12);
+  CHECK(little.finding == OrderFinding::as_declared);
+  // Slopes that come to rest lose their first points only.
+  std::vector<double> slopes;
+  for (int k = 0; k < 14; ++k) slopes.push_back(4.0 - 0.3 * std::pow(0.7, k));
+  const ObservedOrder resting = observe_order(from_errors(falling(1e-1, slopes)), options);
+  REQUIRE(resting.observed);
+  CHECK(std::abs(*resting.observed - 4.0) <= 0.03);
+  CHECK(resting.points >= 10);
+  CHECK(resting.points <= 14);
+  // Noise without a trend is no movement: all points stay.
+  int full = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const auto noisy = sample({.order = 4.0, .noise = 0.03, .ratio = 2.0, .points = 12, .seed = seed});
+    const ObservedOrder order = observe_order(noisy, options);
+    REQUIRE(order.observed);
+    full += order.points == 12;
+  }
+  INFO(full);
+  CHECK(full >= 95);
+}
+
+TEST_CASE(
+    "measure: a short rise above the order at the smallest steps contradicts it, a short fall does not") {
+  OrderOptions options = with_scale_one();
+  options.declared = 2.0;
+  const auto ending = [&](double a, double b) {
+    return observe_order(from_errors(falling(1e-2, {1.45, 1.42, 1.44, 1.43, a, b})), options);
+  };
+  CHECK(ending(1.93, 1.89).finding == OrderFinding::approaching);
+  CHECK(refused(ending(1.93, 1.89)));
+  CHECK(ending(0.93, 0.89).observed);
+  CHECK(ending(1.93, 0.89).observed);
+}
+
+TEST_CASE("measure: an order is compared with the declared one on both sides") {
+  const auto finding = [](double order, std::optional<double> declared, double noise = 0.0) {
+    OrderOptions options = with_scale_one();
+    options.declared = declared;
+    return observe_order(sample({.order = order, .noise = noise}), options);
+  };
+  CHECK(finding(2.0, {}).finding == OrderFinding::observed);
+  CHECK(finding(2.0, 2.0).finding == OrderFinding::as_declared);
+  CHECK(finding(2.09, 2.0).finding == OrderFinding::as_declared);
+  CHECK(finding(2.11, 2.0).finding == OrderFinding::differs);
+  CHECK(finding(1.89, 2.0).finding == OrderFinding::differs);
+  CHECK(finding(10.19, 10.0).finding == OrderFinding::as_declared);  // 2 %
+  CHECK(finding(10.21, 10.0).finding == OrderFinding::differs);
+  CHECK(finding(1.5, 2.0).verdict == "order 1.50 from 16 points, differs from the declared 2");
+  CHECK(finding(1.5, 2.0).observed == finding(1.5, {}).observed);
+}
+
+TEST_CASE("measure: errors at roundoff at every step are exact, or hide a declared order") {
+  Uniform uniform(5);
+  std::vector<OrderPoint> points;
+  for (int k = 0; k < 16; ++k) points.push_back({std::ldexp(1.0, -k), 1e-14 * uniform(0.1, 1.0), true, ""});
+  OrderOptions options = with_scale_one();
+  CHECK(observe_order(points, options).finding == OrderFinding::exact);
+  CHECK(observe_order(points, options).verdict == "exact: the error is at roundoff at every step");
+  options.declared = 8.0;
+  CHECK(observe_order(points, options).finding == OrderFinding::roundoff);
+  CHECK(refused(observe_order(points, options)));
+  options.declared = {};
+  // What falls to roundoff is not exact, nor what stays above it.
+  auto falls = points;
+  falls[0].error = 1e-8;
+  CHECK(observe_order(falls, options).finding == OrderFinding::none);
+  for (OrderPoint& point : points) point.error *= 1e6;
+  CHECK(observe_order(points, options).finding == OrderFinding::none);
 }

@@ -124,7 +124,7 @@ std::vector<double> steps_for(const Scene& scene, const SchemeInfo& scheme, doub
   } else {
     // A scheme of order 1 needs smaller steps before its second term is gone; one of order 4 would meet
     // rounding there.
-    std::vector<double> steps = step_ladder(scene, order == 1.0 ? 21 : 14, 0.5);
+    std::vector<double> steps = step_ladder(scene, scheme, order == 1.0 ? 21 : 14, 0.5);
     if (order == 1.0) steps.erase(steps.begin(), steps.begin() + 8);
     return steps;
   }
