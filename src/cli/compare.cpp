@@ -7,6 +7,7 @@
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
 #include "src/environment.hpp"
+#include "src/study/figures.hpp"
 #include "src/study/present.hpp"
 #include "src/study/vary_output.hpp"
 

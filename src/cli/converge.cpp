@@ -4,6 +4,7 @@
 
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
+#include "src/study/figures.hpp"
 #include "src/study/present.hpp"
 
 namespace gnomon::cli {

@@ -5,6 +5,7 @@
 
 #include "src/output/files.hpp"
 #include "src/study/compare.hpp"
+#include "src/study/figures.hpp"
 #include "src/study/peers.hpp"
 #include "src/study/present.hpp"
 #include "src/study/published.hpp"
@@ -25,6 +26,11 @@ std::string command(const std::string& arguments, const StudyOptions& options = 
   if (!options.integrators.empty())
     text += fmt::format(" --integrators {}", fmt::join(options.integrators, ","));
   return text;
+}
+
+/// The same for a command that draws a figure, with where it writes to: not every one does so unasked.
+std::string drawing_command(const std::string& arguments, const StudyOptions& options) {
+  return command(arguments, options) + " --out gnomon-out";
 }
 
 }  // namespace
@@ -133,7 +139,7 @@ bool PartMaker::make_orders(const std::string& model, const std::vector<Scene>& 
     own.add_orders(studies.back().scene.name, studies.back().orders);
     files_.publish({"converge-" + scenes[k].name,
                     "Convergence: " + scenes[k].name,
-                    command("converge " + scenes[k].name, options[k]),
+                    drawing_command("converge " + scenes[k].name, options[k]),
                     {orders_table(studies.back()), runs_table(studies.back(), "Runs")},
                     convergence_figure(context_.catalogue, studies.back()),
                     {}},
@@ -159,7 +165,7 @@ bool PartMaker::make_comparison(const Scene& scene, const StudyOptions& options,
   if (!options.tols.empty()) arguments += fmt::format(" --tols {:g}", fmt::join(options.tols, ","));
   files_.publish({"compare-" + scene.name,
                   "Work and precision: " + scene.name,
-                  command(arguments, options),
+                  drawing_command(arguments, options),
                   {costs, comparison_table(study, "Runs")},
                   work_precision_figure(context_.catalogue, study),
                   {}},
@@ -197,7 +203,7 @@ bool PartMaker::make_drift(const DriftPlan& plan, output::Progress& progress) {
   const std::string name = (ladder ? "steps-" : "drift-") + plan.scene;
   files_.publish({name,
                   (ladder ? "Large steps: " : "Drift: ") + plan.scene,
-                  command(arguments, options),
+                  drawing_command(arguments, options),
                   tables,
                   drift_figure(context_.catalogue, study, "energy"),
                   {}},
@@ -218,7 +224,7 @@ bool PartMaker::make_vary(const VaryPlan& plan, const StudyOptions& options, out
   const std::string name = "vary-" + plan.label;
   files_.publish({name,
                   "Over one parameter: " + plan.label,
-                  command(vary_command(plan), named),
+                  drawing_command(vary_command(plan), named),
                   study.tables(),
                   study.figure(context_.catalogue),
                   {}},

@@ -44,11 +44,17 @@ struct Guide {
   std::string label;
 };
 
-/// A run that failed has no y: a cross at the top of the frame.
+/// A run that failed has no y: a cross at the top of the frame, above all data.
 struct Failure {
-  double x = 0.0;
+  double x = 0.0;     ///< not a number where it is not known: at the left edge of the frame
   int style = 0;      ///< as of Series
   std::string label;  ///< whose it is and why; not drawn
+};
+
+/// A corner of a Pareto front: nothing has a smaller y for the same x or less.
+struct FrontPoint {
+  double x = 0.0;
+  double y = 0.0;
 };
 
 struct Panel {
@@ -63,10 +69,11 @@ struct Panel {
   std::vector<Guide> guides;
   std::vector<Failure> failures;
   std::vector<Level> levels{};
+  std::vector<FrontPoint> front{};  ///< in any order; drawn as grey steps behind the curves
   std::vector<Series> series;
 };
 
-/// One panel, or several (two in a row) that share one key. All text is plain: nothing in it is markup.
+/// One panel, or several (two in a row) that share the names of their curves. All text is plain: nothing in it is markup.
 /// Panels whose y axes have the same label and scale get the same y range, and those that stand in one row
 /// show its labels once.
 struct Figure {
@@ -75,6 +82,7 @@ struct Figure {
   std::string hollow_note;     ///< what hollow points mean; drawn below the axes if there are any
   std::string failure_note{};  ///< what crosses mean; drawn below the axes if there are any
   std::string floor_note{};    ///< what levels mean; drawn below the axes if there are any
+  std::string front_note{};    ///< what the grey steps mean; drawn below the axes if there are any
   std::vector<Panel> panels;
 };
 
@@ -86,7 +94,7 @@ struct FigureResult {
   explicit operator bool() const { return written; }
 };
 
-/// Draw `figure` into `stem`.svg (900 x 600 px, more for several panels), `stem`.png (twice the pixels) and,
+/// Draw `figure` into `stem`.svg (900 x 600 px, more for several panels or many curves), `stem`.png (twice the pixels) and,
 /// where gnuplot has the terminal pdfcairo, `stem`.pdf; where it has not, an older PDF of that name is
 /// removed. Each file is written whole or not at all; parent folders are made. If `gnuplot` (a name looked up
 /// in PATH, or an absolute path) is missing or fails, nothing is written and the message says why. The same

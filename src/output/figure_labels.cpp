@@ -71,6 +71,18 @@ bool Occupied::is_free(const Box& box) const {
   return true;
 }
 
+bool Occupied::is_free_along(Point from, Point to) const {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const int steps = static_cast<int>(std::ceil(length / (0.5 * cell_size))) + 1;
+  for (int i = 0; i <= steps; ++i) {
+    const double s = static_cast<double>(i) / steps;
+    const double x = from.x + s * (to.x - from.x);
+    const double y = from.y + s * (to.y - from.y);
+    if (!is_free({x, y, x, y})) return false;
+  }
+  return true;
+}
+
 std::optional<std::vector<double>> spread(const std::vector<double>& wanted, double gap, double low,
                                           double high, double longest_move) {
   const std::size_t count = wanted.size();
@@ -140,6 +152,85 @@ std::optional<std::vector<Point>> labels_at_ends(Occupied& occupied, const std::
   }
   occupied = trial;
   return labels;
+}
+
+namespace {
+
+struct Candidate {
+  LabelPlace place;
+  double badness = 0.0;
+};
+
+/// The best place for one label; `lines` is what the curves occupy, `labels` what labels and leaders do.
+std::optional<Candidate> best_place(const Occupied& lines, const Occupied& labels, const LabelledLine& line,
+                                    double height) {
+  constexpr int directions = 16;
+  constexpr double clear_of_marker = 8.0;
+  std::optional<Candidate> best;
+  for (std::size_t a = 0; a < line.anchors.size(); ++a) {
+    const Point anchor = line.anchors[a];
+    const bool end = a == 0 || a + 1 == line.anchors.size();
+    for (const double radius : {10.0, 18.0, 27.0, 38.0, 50.0, 64.0, 80.0}) {
+      for (int k = 0; k < directions; ++k) {
+        const double angle = 2.0 * 3.14159265358979323846 * k / directions;
+        const Point away{std::cos(angle), std::sin(angle)};
+        const Point tip{anchor.x + radius * away.x, anchor.y + radius * away.y};
+        // The box touches the tip from outside, by a side or a corner.
+        Candidate each;
+        each.place.text = {tip.x - 0.5 * (1.0 - away.x) * line.text_width, tip.y + 0.5 * away.y * height};
+        each.place.leader = radius > 12.0;
+        each.place.from = {anchor.x + clear_of_marker * away.x, anchor.y + clear_of_marker * away.y};
+        each.place.to = tip;
+        each.badness = radius + (end ? 0.0 : 12.0);
+        if (best && each.badness >= best->badness) continue;
+        const Box box = grown(text_box(each.place.text, line.text_width, height), 2.0);
+        if (!lines.is_free(box) || !labels.is_free(box)) continue;
+        if (each.place.leader) {
+          if (!labels.is_free_along(each.place.from, each.place.to)) continue;
+          if (!lines.is_free_along(each.place.from, each.place.to)) each.badness += 60.0;
+        }
+        if (!best || each.badness < best->badness) best = each;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<std::vector<LabelPlace>> labels_along(Occupied& occupied,
+                                                    const std::vector<LabelledLine>& lines,
+                                                    double text_height) {
+  Occupied labels = occupied.emptied();
+  std::vector<LabelPlace> places(lines.size());
+  std::vector<std::optional<Candidate>> best(lines.size());
+  std::vector<std::size_t> left(lines.size());
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  const auto still_free = [&](const Candidate& each, double width) {
+    return labels.is_free(grown(text_box(each.place.text, width, text_height), 2.0)) &&
+           (!each.place.leader || labels.is_free_along(each.place.from, each.place.to));
+  };
+  while (!left.empty()) {
+    for (const std::size_t c : left) {
+      if (best[c] && still_free(*best[c], lines[c].text_width)) continue;
+      best[c] = best_place(occupied, labels, lines[c], text_height);
+      if (!best[c]) return std::nullopt;
+    }
+    // The one for which the best place left is the worst goes first.
+    const auto next = std::max_element(left.begin(), left.end(), [&](std::size_t a, std::size_t b) {
+      return best[a]->badness < best[b]->badness;
+    });
+    const std::size_t c = *next;
+    left.erase(next);
+    places[c] = best[c]->place;
+    labels.add_box(text_box(places[c].text, lines[c].text_width, text_height));
+    if (places[c].leader) labels.add_line(places[c].from, places[c].to);
+  }
+  for (std::size_t c = 0; c < lines.size(); ++c) {
+    occupied.add_box(text_box(places[c].text, lines[c].text_width, text_height));
+    if (places[c].leader) occupied.add_line(places[c].from, places[c].to);
+  }
+  return places;
 }
 
 std::optional<GuidePlace> place_guides(Occupied& occupied, const Box& area, const std::vector<double>& slopes,

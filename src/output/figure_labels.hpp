@@ -27,6 +27,10 @@ class Occupied {
   void add_line(Point from, Point to);
   void add_box(const Box& box);
   bool is_free(const Box& box) const;
+  /// The same area with nothing drawn in it.
+  Occupied emptied() const { return Occupied(area_); }
+  /// Whether nothing is drawn within about a pixel of a line.
+  bool is_free_along(Point from, Point to) const;
 
  private:
   std::size_t index(std::size_t column, std::size_t row) const { return row * columns_ + column; }
@@ -51,6 +55,24 @@ struct LineEnds {
 /// Centre-left points of labels next to an end of each line; none if not all fit. Adds the labels found.
 std::optional<std::vector<Point>> labels_at_ends(Occupied& occupied, const std::vector<LineEnds>& lines,
                                                  double text_height);
+
+struct LabelledLine {
+  std::vector<Point> anchors;  ///< where a label may point to; the first and the last are the best
+  double text_width = 0.0;
+};
+
+struct LabelPlace {
+  Point text;  ///< centre-left
+  Point from;  ///< of a leader from the line to the label, if there is one
+  Point to;
+  bool leader = false;
+};
+
+/// A label for each line, close to it or joined to it by a short leader that crosses no other label and no
+/// line where it can be avoided. None if not all fit. Adds the labels and leaders found.
+std::optional<std::vector<LabelPlace>> labels_along(Occupied& occupied,
+                                                    const std::vector<LabelledLine>& lines,
+                                                    double text_height);
 
 struct GuidePlace {
   std::vector<Point> from;  ///< one for each slope

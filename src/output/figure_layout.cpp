@@ -9,137 +9,94 @@
 #include <utility>
 
 #include "src/output/figure_curves.hpp"
+#include "src/output/figure_key.hpp"
+#include "src/output/figure_naming.hpp"
+#include "src/output/figure_notes.hpp"
 #include "src/output/text.hpp"
 
 namespace gnomon::output {
 namespace {
 
-constexpr double text_size = 15.0;
 constexpr double title_size = 17.0;
-constexpr double line_height = 22.0;
-constexpr double key_sample = 40.0;
+constexpr double failure_distance = 12.0;  // of crosses that stand below each other
 constexpr const char* grey = "#555555";
 
-enum class Naming { beside_frame, at_ends, key_right, key_below };
-
-struct KeyEntry {
-  std::string label;
-  int style = 0;
-  bool line = false;
+/// How the curves of a figure are named.
+struct Naming {
+  enum class Kind { beside_frame, at_ends, along, key_right, key_below };
+  Kind kind;
+  std::size_t panel = 0;  ///< where the names stand, unless they are a key
+  bool room = false;      ///< the axis is longer than the data, so that names have a place
 };
-
-std::vector<KeyEntry> key_entries(const Figure& figure, const std::vector<std::vector<Curve>>& curves) {
-  std::vector<KeyEntry> entries;
-  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
-    std::size_t drawn = 0;
-    for (const Series& series : figure.panels[p].series) {
-      if (!has_points(series, figure.panels[p])) continue;
-      const Curve& curve = curves[p][drawn++];
-      const auto known = std::find_if(entries.begin(), entries.end(), [&](const KeyEntry& entry) {
-        return entry.label == curve.label && entry.style == series.style;
-      });
-      KeyEntry& entry = known != entries.end() ? *known : entries.emplace_back();
-      entry.label = curve.label;
-      entry.style = series.style;
-      entry.line = entry.line || has_line(curve);
-    }
-  }
-  return entries;
-}
-
-double widest(const std::vector<KeyEntry>& entries) {
-  double width = 0.0;
-  for (const KeyEntry& entry : entries) width = std::max(width, text_width(entry.label, text_size));
-  return width;
-}
-
-/// One entry of the key with its left end at `at`.
-void add_key_entry(Decoration& decoration, const KeyEntry& entry, Point at) {
-  const SeriesStyle style = style_of(entry.style);
-  if (entry.line) {
-    decoration.strokes.push_back({at, {at.x + key_sample, at.y}, style.colour, 1.8, style.dash});
-  }
-  decoration.marks.push_back({{at.x + 0.5 * key_sample, at.y}, style.filled_marker, style.colour});
-  decoration.texts.push_back({{at.x + key_sample + 7.0, at.y}, Anchor::left, entry.label, text_size});
-}
-
-/// A key of several columns, filled column by column.
-struct KeyGrid {
-  std::size_t rows = 0;
-  std::vector<double> left;  // of each column
-  double width = 0.0;
-};
-
-/// The key with the fewest rows that is not wider than `width`, else of one column.
-KeyGrid key_grid(const std::vector<KeyEntry>& entries, double width) {
-  KeyGrid grid;
-  for (std::size_t rows = 1; rows <= entries.size(); ++rows) {
-    grid = {rows, {}, 0.0};
-    for (std::size_t first = 0; first < entries.size(); first += rows) {
-      const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(first);
-      const auto end = begin + static_cast<std::ptrdiff_t>(std::min(rows, entries.size() - first));
-      grid.left.push_back(grid.width + (first == 0 ? 0.0 : 26.0));
-      grid.width = grid.left.back() + key_sample + 7.0 + widest({begin, end});
-    }
-    if (grid.width <= width) break;
-  }
-  return grid;
-}
 
 /// The part of the figure that is common to all panels, and what is needed to place them.
 struct Frame {
   std::vector<KeyEntry> entries;
   double left = 0.0;     // for tick labels and the label of the y axis
   double bottom = 60.0;  // for tick labels and the label of the x axis
-  double note = 0.0;
-  bool hollow = false;
+  double note = 0.0;     // for the notes below all
 };
 
-void place_panels_alone(Drawing& drawing, const Frame& frame, Naming naming, double top) {
+/// False if a key does not fit at the right.
+bool place_panels_alone(Drawing& drawing, const Frame& frame, Naming::Kind naming, double top) {
+  constexpr double narrowest = 330.0, closest = 19.0;
+  const double bottom = frame.note + frame.bottom;
+  const auto entries = static_cast<double>(frame.entries.size());
   double right = 24.0;
-  if (naming == Naming::beside_frame) right = widest(frame.entries) + 26.0;
-  if (naming == Naming::key_right) right = key_sample + widest(frame.entries) + 32.0;
-  drawing.panels.front().frame = {frame.left, frame.note + frame.bottom, drawing.width - right, top};
-  if (naming != Naming::key_right) return;
+  if (naming == Naming::Kind::beside_frame) right = widest(frame.entries) + 26.0;
+  if (naming == Naming::Kind::key_right) right = key_entry_width(widest(frame.entries)) + 25.0;
+  drawing.panels.front().frame = {frame.left, bottom, drawing.width - right, top};
+  if (drawing.width - right - frame.left < narrowest) return false;
+  if (naming != Naming::Kind::key_right) return true;
+  if (entries * closest > top - bottom) return false;
   double y = top - 8.0;
   for (const KeyEntry& entry : frame.entries) {
     add_key_entry(drawing.decoration, entry, {drawing.width - right + 16.0, y});
-    y -= std::min(line_height + 1.0, (top - frame.bottom) / static_cast<double>(frame.entries.size()));
+    y -= std::min(line_height + 1.0, (top - bottom) / entries);
   }
+  return true;
 }
 
-/// Two panels in a row above the key. Sets the height of the drawing.
-void place_panels_in_rows(Drawing& drawing, const Figure& figure, const Frame& frame, double title_height) {
+/// One panel, or two in a row, above the key if there is one. Sets the height of the drawing.
+void place_panels_in_rows(Drawing& drawing, const Figure& figure, const Frame& frame, bool key,
+                          double title_height) {
   const std::size_t count = figure.panels.size();
-  const std::size_t rows = (count + 1) / 2;
-  const KeyGrid grid = key_grid(frame.entries, drawing.width - 40.0);
-  const double key_height = static_cast<double>(grid.rows) * line_height + 16.0;
+  const std::size_t columns = count > 1 ? 2 : 1;
+  const std::size_t rows = (count + columns - 1) / columns;
+  const KeyGrid grid = key ? key_grid(frame.entries, drawing.width - 40.0) : KeyGrid{};
+  const double key_height = key ? static_cast<double>(grid.rows) * line_height + 16.0 : 8.0;
+  const double height = columns == 1 ? 440.0 : key ? 370.0 : 430.0;
 
   const bool titled = std::any_of(figure.panels.begin(), figure.panels.end(),
                                   [](const Panel& panel) { return !panel.title.empty(); });
-  const double row_height = 370.0 + (titled ? 24.0 : 8.0) + frame.bottom;
+  const double row_height = height + (titled ? 24.0 : 8.0) + frame.bottom;
   drawing.height = title_height + static_cast<double>(rows) * row_height + key_height + frame.note;
   bool narrow_gap = true;
   for (std::size_t p = 1; p < count; p += 2) narrow_gap = narrow_gap && !drawing.panels[p].y_labels;
   const double gap = narrow_gap ? 26.0 : frame.left + 10.0;
-  const double width = (drawing.width - frame.left - gap - 24.0) / 2.0;
+  const double width =
+      columns == 1 ? drawing.width - frame.left - 24.0 : (drawing.width - frame.left - gap - 24.0) / 2.0;
   for (std::size_t p = 0; p < count; ++p) {
-    const double left = frame.left + static_cast<double>(p % 2) * (width + gap);
+    const double left = frame.left + static_cast<double>(p % columns) * (width + gap);
     const double top =
-        drawing.height - title_height - static_cast<double>(p / 2) * row_height - (titled ? 24.0 : 8.0);
-    drawing.panels[p].frame = {left, top - 370.0, left + width, top};
+        drawing.height - title_height - static_cast<double>(p / columns) * row_height - (titled ? 24.0 : 8.0);
+    drawing.panels[p].frame = {left, top - height, left + width, top};
   }
-  for (std::size_t e = 0; e < frame.entries.size(); ++e) {
+  for (std::size_t e = 0; key && e < frame.entries.size(); ++e) {
     const double x = 0.5 * (drawing.width - grid.width) + grid.left[e / grid.rows];
     const double y = frame.note + key_height - 16.0 - static_cast<double>(e % grid.rows) * line_height;
     add_key_entry(drawing.decoration, frame.entries[e], {x, y});
   }
 }
 
+}  // namespace
+
 Point to_pixels(const DrawnPanel& panel, Point data) {
   return {panel.frame.left + panel.x.position(data.x) * (panel.frame.right - panel.frame.left),
           panel.frame.bottom + panel.y.position(data.y) * (panel.frame.top - panel.frame.bottom)};
 }
+
+namespace {
 
 Occupied occupied_by_curves(const DrawnPanel& panel, const Box& area) {
   Occupied occupied(area);
@@ -149,6 +106,8 @@ Occupied occupied_by_curves(const DrawnPanel& panel, const Box& area) {
         occupied.add_line(to_pixels(panel, piece[i - 1]), to_pixels(panel, piece[i]));
       }
     }
+    for (const Bar& bar : curve.bars)
+      occupied.add_line(to_pixels(panel, {bar.low, bar.at.y}), to_pixels(panel, {bar.high, bar.at.y}));
     for (const auto* points : {&curve.filled, &curve.hollow}) {
       for (const Point& point : *points) {
         const Point at = to_pixels(panel, point);
@@ -156,6 +115,8 @@ Occupied occupied_by_curves(const DrawnPanel& panel, const Box& area) {
       }
     }
   }
+  for (std::size_t k = 1; k < panel.front.size(); ++k)
+    occupied.add_line(to_pixels(panel, panel.front[k - 1]), to_pixels(panel, panel.front[k]));
   return occupied;
 }
 
@@ -224,71 +185,59 @@ bool add_guides(DrawnPanel& panel, const Panel& data, Occupied& occupied) {
   return true;
 }
 
-/// Crosses at the top of the frame; those of one place stand below each other, as far as there is room.
-void add_failures(DrawnPanel& panel, const Panel& data, Occupied& occupied) {
-  constexpr double distance = 12.0;
-  std::vector<Point> taken;
+/// Whose cross has a place, and where: at the top, those of one place below each other as far as there is
+/// room.
+std::vector<std::pair<const Failure*, Point>> failure_places(const Panel& data, const Axis& x,
+                                                             const Box& frame) {
+  std::vector<std::pair<const Failure*, Point>> places;
   for (const Failure& failure : data.failures) {
-    if (!can_be_drawn(failure.x, data.log_x)) continue;
-    const double position = panel.x.position(failure.x);
+    const bool unknown = std::isnan(failure.x);
+    if (!unknown && !can_be_drawn(failure.x, data.log_x)) continue;
+    const double position = unknown ? 0.0 : x.position(failure.x);
     if (position < 0.0 || position > 1.0) continue;
-    Point at{panel.frame.left + position * (panel.frame.right - panel.frame.left), panel.frame.top - 10.0};
-    for (const Point& other : taken)
-      if (std::abs(other.x - at.x) < distance) at.y = std::min(at.y, other.y - distance);
-    if (at.y < 0.5 * (panel.frame.bottom + panel.frame.top)) continue;
-    taken.push_back(at);
-    panel.decoration.marks.push_back({at, 2, style_of(failure.style).colour});
+    Point at{frame.left + position * (frame.right - frame.left), frame.top - 10.0};
+    if (unknown) at.x = frame.left + 8.0;
+    for (const auto& [whose, other] : places)
+      if (std::abs(other.x - at.x) < failure_distance) at.y = std::min(at.y, other.y - failure_distance);
+    if (at.y < 0.4 * frame.bottom + 0.6 * frame.top) continue;
+    places.emplace_back(&failure, at);
+  }
+  return places;
+}
+
+/// The part of the height that crosses need, with some air below them.
+double failure_room(const Panel& data, const Axis& x, bool several) {
+  const Box nominal = several ? Box{0.0, 0.0, 430.0, 370.0} : Box{0.0, 0.0, 600.0, 440.0};
+  double room = 0.0;
+  for (const auto& [whose, at] : failure_places(data, x, nominal))
+    room = std::max(room, (nominal.top - at.y + 8.0) / nominal.top);
+  return room;
+}
+
+void add_failures(DrawnPanel& panel, const Panel& data, Occupied& occupied) {
+  for (const auto& [failure, at] : failure_places(data, panel.x, panel.frame)) {
+    panel.decoration.marks.push_back({at, 2, style_of(failure->style).colour});
     occupied.add_box({at.x - 6.0, at.y - 6.0, at.x + 6.0, at.y + 6.0});
   }
 }
 
-std::pair<Point, Point> ends(const DrawnPanel& panel, const Curve& curve) {
-  const Point first = to_pixels(panel, curve.pieces.front().front());
-  const Point last = to_pixels(panel, curve.pieces.back().back());
-  return {first, last};
-}
-
-/// Names right of the frame, each at the height of its curve's right end. False if they do not fit.
-bool name_beside_frame(DrawnPanel& panel) {
-  std::vector<Point> right_ends;
-  std::vector<double> wanted;
-  for (const Curve& curve : panel.curves) {
-    const auto [first, last] = ends(panel, curve);
-    const Point end = last.x >= first.x ? last : first;
-    if (panel.frame.right - end.x > 0.08 * (panel.frame.right - panel.frame.left)) return false;
-    if (end.y < panel.frame.bottom || end.y > panel.frame.top) return false;
-    right_ends.push_back(end);
-    wanted.push_back(end.y);
+/// The front as steps from the top of the frame to its right side.
+void add_front(DrawnPanel& panel, const Panel& data) {
+  std::vector<Point> corners;
+  for (const FrontPoint& point : data.front)
+    if (can_be_drawn(point.x, data.log_x) && can_be_drawn(point.y, data.log_y))
+      corners.push_back({point.x, point.y});
+  if (corners.empty()) return;
+  std::sort(corners.begin(), corners.end(),
+            [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  double y = panel.y.range.high;
+  for (const Point& corner : corners) {
+    if (corner.y >= y) continue;
+    panel.front.push_back({corner.x, y});
+    y = corner.y;
+    panel.front.push_back({corner.x, y});
   }
-  const auto heights = spread(wanted, 17.0, panel.frame.bottom + 4.0, panel.frame.top - 4.0, 50.0);
-  if (!heights) return false;
-  for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-    const Curve& curve = panel.curves[c];
-    const Point at = {panel.frame.right + 12.0, (*heights)[c]};
-    const double gap = has_markers_everywhere(curve) ? 8.0 : 0.0;
-    const Point from = {right_ends[c].x + gap, right_ends[c].y};
-    panel.decoration.strokes.push_back({from, {at.x - 3.0, at.y}, curve.style.colour, 0.7, "solid"});
-    panel.decoration.texts.push_back({at, Anchor::left, curve.label, text_size, curve.style.text_colour});
-  }
-  return true;
-}
-
-/// Names within the frame at an end of each curve. False if they do not fit.
-bool name_at_ends(DrawnPanel& panel, Occupied& occupied) {
-  if (panel.curves.size() > 8) return false;
-  std::vector<LineEnds> lines;
-  for (const Curve& curve : panel.curves) {
-    const auto [first, last] = ends(panel, curve);
-    lines.push_back({first, last, text_width(curve.label, text_size)});
-  }
-  const auto places = labels_at_ends(occupied, lines, text_size + 2.0);
-  if (!places) return false;
-  for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-    const Curve& curve = panel.curves[c];
-    panel.decoration.texts.push_back(
-        {(*places)[c], Anchor::left, curve.label, text_size, curve.style.text_colour});
-  }
-  return true;
+  panel.front.push_back({panel.x.range.high, y});
 }
 
 void add_axis_labels(DrawnPanel& panel, const Panel& data, const Frame& frame) {
@@ -306,10 +255,9 @@ void add_axis_labels(DrawnPanel& panel, const Panel& data, const Frame& frame) {
   }
 }
 
-/// The range of x, longer at the right so that names of the width `text` can stand there within the frame.
-std::optional<Range> with_room(std::optional<Range> range, bool log, double text) {
+/// The range longer at its high end by a part of it.
+std::optional<Range> with_room(std::optional<Range> range, bool log, double part) {
   if (!range) return range;
-  const double part = std::min(0.3, text / 700.0);
   const double low = range->low;
   const double high = range->high;
   // Factors that are not too large each, for ranges near those of double.
@@ -318,58 +266,76 @@ std::optional<Range> with_room(std::optional<Range> range, bool log, double text
   return range;
 }
 
+/// The axes, with room for names and above all data for crosses.
+void make_axes(Drawing& drawing, const Figure& figure, Naming naming, double widest_name) {
+  const bool several = figure.panels.size() > 1;
+  double failures = 0.0;
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    const Panel& data = figure.panels[p];
+    const bool names = naming.room && (!several || naming.panel == p);
+    const double room = names ? std::min(0.3, widest_name / (several ? 500.0 : 700.0)) : 0.0;
+    drawing.panels[p].x = make_axis(data.log_x, with_room(x_range(figure, p), data.log_x, room), data.x_range,
+                                    (several ? 6 : 8) + (data.log_x ? 2 : 0));
+    failures = std::max(failures, failure_room(data, drawing.panels[p].x, several));
+  }
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    const Panel& data = figure.panels[p];
+    DrawnPanel& panel = drawing.panels[p];
+    panel.y = make_axis(data.log_y, with_room(y_range(figure, p), data.log_y, failures / (1.0 - failures)),
+                        data.y_range, several ? 9 : 12);
+    panel.y_labels = p % 2 == 0 || !shares_y_axis(figure.panels[p - 1], data);
+  }
+}
+
+/// Names the curves of a panel; true if its way of naming is another one.
+bool name_curves(DrawnPanel& panel, Naming::Kind naming, Occupied& occupied) {
+  switch (naming) {
+    case Naming::Kind::at_ends:
+      return name_at_ends(panel, occupied);
+    case Naming::Kind::along:
+      return name_along(panel, occupied);
+    default:
+      return true;
+  }
+}
+
 /// The drawing with the curves named in one way; none if there is no place for all the names.
 std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std::vector<Curve>>& curves,
                                     Naming naming) {
+  using Kind = Naming::Kind;
   Drawing drawing;
   Frame frame;
   frame.entries = key_entries(figure, curves);
-  for (const auto& panel : curves) {
-    for (const Curve& curve : panel) frame.hollow = frame.hollow || !curve.hollow.empty();
-  }
-  const bool noted = frame.hollow && !figure.hollow_note.empty();
-  const bool failed =
-      !figure.failure_note.empty() &&
-      std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.failures.empty(); });
-  const bool levelled =
-      !figure.floor_note.empty() && std::any_of(figure.panels.begin(), figure.panels.end(),
-                                                [](const Panel& panel) { return !panel.levels.empty(); });
-  frame.note = noted || failed || levelled ? 26.0 : 0.0;
   const double title_height = figure.title.empty() ? 0.0 : 30.0;
   const bool several = figure.panels.size() > 1;
   if (several) drawing.width = 1000.0;
 
   drawing.panels.resize(figure.panels.size());
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) drawing.panels[p].curves = curves[p];
+  make_axes(drawing, figure, naming, widest(frame.entries));
   int characters = 1;
-  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
-    DrawnPanel& panel = drawing.panels[p];
-    panel.curves = curves[p];
-    const bool shares = p % 2 == 1 && shares_y_axis(figure.panels[p - 1], figure.panels[p]);
-    panel.y_labels = !shares;
-    const bool log_x = figure.panels[p].log_x;
-    const double room = naming == Naming::at_ends ? widest(frame.entries) : 0.0;
-    panel.x = make_axis(log_x, with_room(x_range(figure, p), log_x, room), figure.panels[p].x_range,
-                        (several ? 6 : 8) + (log_x ? 2 : 0));
-    panel.y =
-        make_axis(figure.panels[p].log_y, y_range(figure, p), figure.panels[p].y_range, several ? 9 : 12);
-    characters = std::max(characters, widest_label(panel.y));
-  }
+  for (const DrawnPanel& panel : drawing.panels) characters = std::max(characters, widest_label(panel.y));
   frame.left = 46.0 + 0.6 * text_size * characters;
-  if (several) {
-    place_panels_in_rows(drawing, figure, frame, title_height);
+  const std::vector<PlacedNote> notes = notes_of(figure, curves, drawing.width - frame.left - 16.0);
+  frame.note = height_of(notes);
+  if (several || naming.kind == Kind::key_below) {
+    place_panels_in_rows(drawing, figure, frame, naming.kind == Kind::key_below, title_height);
   } else {
     const double above = title_height + (figure.panels.front().title.empty() ? 16.0 : 28.0);
-    place_panels_alone(drawing, frame, naming, drawing.height - above);
+    if (!place_panels_alone(drawing, frame, naming.kind, drawing.height - above)) return std::nullopt;
   }
 
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     DrawnPanel& panel = drawing.panels[p];
+    add_front(panel, figure.panels[p]);
     Occupied occupied = occupied_by_curves(panel, panel.frame);
     add_failures(panel, figure.panels[p], occupied);
     add_levels(panel, figure.panels[p]);
-    if (naming == Naming::beside_frame && !name_beside_frame(panel)) return std::nullopt;
+    const bool named = naming.panel == p;
+    if (named && naming.kind == Kind::beside_frame && !name_beside_frame(panel, occupied))
+      return std::nullopt;
     const auto lines = add_reference_lines(panel, figure.panels[p], occupied);
-    if (naming == Naming::at_ends && !name_at_ends(panel, occupied)) return std::nullopt;
+    if (named && !name_curves(panel, naming.kind, occupied)) return std::nullopt;
     name_reference_lines(panel, lines, occupied);
     if (!add_guides(panel, figure.panels[p], occupied)) {
       drawing.left_out.push_back("guide lines: no free place");
@@ -381,19 +347,31 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
     drawing.decoration.texts.push_back(
         {{middle, drawing.height - 20.0}, Anchor::centre, plain_text(figure.title), title_size});
   }
-  double left = drawing.panels.front().frame.left;
-  const auto note = [&](int mark, const std::string& text) {
-    drawing.decoration.marks.push_back({{left + 6.0, 15.0}, mark, grey});
-    drawing.decoration.texts.push_back(
-        {{left + 18.0, 15.0}, Anchor::left, plain_text(text), text_size, grey});
-    left += 18.0 + text_width(plain_text(text), text_size) + 30.0;
-  };
-  if (noted) note(6, figure.hollow_note);
-  if (failed) note(2, figure.failure_note);
-  if (levelled)
-    drawing.decoration.texts.push_back(
-        {{left, 15.0}, Anchor::left, plain_text(figure.floor_note), text_size, grey});
+  add_notes(drawing.decoration, notes, drawing.panels.front().frame.left);
   return drawing;
+}
+
+/// Ways to name the curves, the best first.
+std::vector<Naming> namings(const Figure& figure, const std::vector<std::vector<Curve>>& curves) {
+  using Kind = Naming::Kind;
+  const bool map = std::ranges::any_of(figure.panels, [](const Panel& panel) {
+    return std::ranges::any_of(panel.series, &Series::marks_only);
+  });
+  if (map && figure.panels.size() == 1) return {{Kind::key_right}, {Kind::key_below}};
+  if (map) return {{Kind::key_below}};
+  if (figure.panels.size() == 1)
+    return {{Kind::beside_frame},   {Kind::at_ends, 0, true}, {Kind::along},
+            {Kind::along, 0, true}, {Kind::key_right},        {Kind::key_below}};
+  std::vector<Naming> ways;
+  if (figure.panels.size() == 2) {
+    // The names of one panel do for both if it shows every curve.
+    const std::size_t all = key_entries(figure, curves).size();
+    for (const bool room : {false, true})
+      for (const std::size_t p : {1U, 0U})
+        if (curves[p].size() == all) ways.push_back({Kind::along, p, room});
+  }
+  ways.push_back({Kind::key_below});
+  return ways;
 }
 
 }  // namespace
@@ -404,15 +382,9 @@ Drawing lay_out(const Figure& figure) {
   for (const Panel& panel : figure.panels) curves.push_back(curves_of(panel, left_out));
 
   std::optional<Drawing> drawing;
-  if (figure.panels.size() == 1) {
-    const bool map = std::ranges::any_of(figure.panels.front().series, &Series::marks_only);
-    for (const Naming naming : {Naming::beside_frame, Naming::at_ends, Naming::key_right}) {
-      if (map && naming != Naming::key_right) continue;
+  if (!figure.panels.empty())
+    for (const Naming& naming : namings(figure, curves))
       if (!drawing) drawing = drawing_with(figure, curves, naming);
-    }
-  } else if (!figure.panels.empty()) {
-    drawing = drawing_with(figure, curves, Naming::key_below);
-  }
   if (!drawing) drawing.emplace();
   drawing->left_out.insert(drawing->left_out.begin(), left_out.begin(), left_out.end());
   return *drawing;

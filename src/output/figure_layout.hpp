@@ -11,6 +11,11 @@
 
 namespace gnomon::output {
 
+inline constexpr double text_size = 15.0;
+inline constexpr double line_height = 22.0;
+inline constexpr const char* front_colour = "#c4c4c4";
+inline constexpr double front_width = 3.0;
+
 enum class Anchor { left, centre, right };
 
 /// A line of text, vertically centred at `at`.
@@ -67,6 +72,7 @@ struct DrawnPanel {
   Axis y;
   bool y_labels = true;
   std::vector<Curve> curves;
+  std::vector<Point> front;  ///< corners of the grey steps, in data coordinates
   Decoration decoration;
 };
 
@@ -79,8 +85,12 @@ struct Drawing {
   std::vector<std::string> left_out;  ///< as in FigureResult
 };
 
-/// One panel names its curves at their ends if all names find a place, else in a key at the right; several
-/// panels have one key below them. Throws std::invalid_argument if lengths of a series differ.
+/// A point of the data in the drawing.
+Point to_pixels(const DrawnPanel& panel, Point data);
+
+/// One panel, or one of two, names its curves beside them if all names find a place. Else there is a key: at
+/// the right of a single panel if it has room there, else below all, in columns; the drawing gets as high as
+/// that needs. Throws std::invalid_argument if lengths of a series differ.
 Drawing lay_out(const Figure& figure);
 
 }  // namespace gnomon::output

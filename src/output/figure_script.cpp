@@ -60,6 +60,9 @@ void write_all_data(Output out, const Drawing& drawing) {
       fmt::format_to(out, "END_OF_DATA\n");
     }
   }
+  for (std::size_t p = 0; p < drawing.panels.size(); ++p)
+    if (!drawing.panels[p].front.empty())
+      write_data(out, fmt::format("panel{}_front", p), {drawing.panels[p].front});
   // A panel without data is drawn as an empty frame: a plot of one undefined value.
   fmt::format_to(out, "$nothing << END_OF_DATA\nNaN NaN\nEND_OF_DATA\n");
 }
@@ -106,6 +109,9 @@ void write_plot(Output out, const DrawnPanel& panel, std::size_t p) {
                    quoted(title));
     separator = ", \\\n  ";
   };
+  if (!panel.front.empty())
+    element(fmt::format("panel{}_front", p),
+            fmt::format("lines lw {} lc rgb '{}'", front_width, front_colour), "Pareto front");
   if (panel.curves.empty()) element("nothing", "points pt 7 lc rgb '#ffffff'", "");
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const Curve& curve = panel.curves[c];

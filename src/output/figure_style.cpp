@@ -58,8 +58,10 @@ void settle_styles(Figure& figure) {
   };
   for (Panel& panel : figure.panels)
     for (Series& series : panel.series) settle(series.style);
-  for (Panel& panel : figure.panels)
+  for (Panel& panel : figure.panels) {
     for (Failure& failure : panel.failures) settle(failure.style);
+    for (Level& level : panel.levels) settle(level.style);
+  }
 }
 
 }  // namespace gnomon::output

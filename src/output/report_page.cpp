@@ -125,11 +125,13 @@ Json figure_json(const Figure& figure) {
   Json json{{"title", figure.title},
             {"hollow_note", figure.hollow_note},
             {"failure_note", figure.failure_note},
+            {"front_note", figure.front_note},
             {"panels", Json::array()}};
   for (const Panel& panel : figure.panels) {
-    Json each{{"title", panel.title},    {"x_label", panel.x_label}, {"y_label", panel.y_label},
-              {"log_x", panel.log_x},    {"log_y", panel.log_y},     {"lines", Json::array()},
-              {"series", Json::array()}, {"failures", Json::array()}};
+    Json each{{"title", panel.title},    {"x_label", panel.x_label},  {"y_label", panel.y_label},
+              {"log_x", panel.log_x},    {"log_y", panel.log_y},      {"lines", Json::array()},
+              {"series", Json::array()}, {"failures", Json::array()}, {"front", Json::array()}};
+    for (const FrontPoint& point : panel.front) each["front"].push_back(numbers({point.x, point.y}));
     for (const Failure& failure : panel.failures)
       each["failures"].push_back({{"x", numbers({failure.x})[0]},
                                   {"label", failure.label},

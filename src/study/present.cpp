@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "src/environment.hpp"
-#include "src/output/figure_style.hpp"
 
 namespace gnomon {
 namespace {
@@ -17,56 +16,6 @@ using output::Table;
 
 std::string unit_of(const MetricInfo& metric) {
   return metric.unit == "1" ? "relative" : std::string(metric.unit);
-}
-
-/// Series of one quantity against another over the rows of one scheme; what lies at the bound is hollow.
-template <class X>
-output::Series series(const Catalogue& catalogue, const SceneStudy& study, const SchemeInfo& scheme,
-                      X&& x_of) {
-  output::Series series;
-  series.label = std::string(scheme.name);
-  series.style = style_of_scheme(catalogue, scheme);
-  for (const Row& row : study.rows) {
-    if (row.scheme != &scheme || row.error.empty()) continue;
-    series.x.push_back(x_of(row));
-    series.y.push_back(row.error[0]);
-    series.hollow.push_back(row.below_bound[0]);
-  }
-  return series;
-}
-
-constexpr const char* failure_note = "a run that failed; the table says why";
-
-/// Failed runs of one scheme; `x_of` gives their place, not finite for none.
-template <class X>
-void add_failures(output::Panel& panel, const Catalogue& catalogue, const SceneStudy& study,
-                  const SchemeInfo& scheme, X&& x_of) {
-  for (const Row& row : study.rows) {
-    if (row.scheme != &scheme || row.result.status == Status::ok || row.result.status == Status::interrupted)
-      continue;
-    const double x = x_of(row);
-    if (std::isfinite(x))
-      panel.failures.push_back(
-          {x, style_of_scheme(catalogue, scheme),
-           fmt::format("{}, {}: {}", scheme.name, row.setting.text(), to_string(row.result.status))});
-  }
-}
-
-std::vector<const SchemeInfo*> schemes_of(const SceneStudy& study) {
-  std::vector<const SchemeInfo*> schemes;
-  for (const Row& row : study.rows)
-    if (std::find(schemes.begin(), schemes.end(), row.scheme) == schemes.end()) schemes.push_back(row.scheme);
-  return schemes;
-}
-
-void add_bound(output::Panel& panel, const SceneStudy& study) {
-  if (!study.reference.bounds.empty())
-    panel.reference_lines.push_back({study.reference.bounds.back()[0], "bound of the reference"});
-}
-
-std::string error_label(const SceneStudy& study) {
-  const MetricInfo metric = study.scene.model->metrics()[0];
-  return fmt::format("{} error at t = {:g} s [{}]", metric.name, study.scene.t_end, metric.unit);
 }
 
 }  // namespace
@@ -336,109 +285,6 @@ Table drift_runs_table(const DriftStudy& study) {
       "time "
       "it reached");
   return table;
-}
-
-output::Figure convergence_figure(const Catalogue& catalogue, const Convergence& study) {
-  output::Figure figure;
-  figure.title = study.scene.name;
-  figure.hollow_note = "hollow: at or below the bound of the reference";
-  figure.failure_note = failure_note;
-  output::Panel steps{.title = "fixed step", .x_label = "step [s]", .y_label = error_label(study)};
-  output::Panel tols{.title = "adaptive", .x_label = "tolerance", .y_label = error_label(study)};
-  for (const SchemeInfo* scheme : schemes_of(study)) {
-    const auto add = [&](output::Panel& panel, const auto& x_of) {
-      panel.series.push_back(series(catalogue, study, *scheme, x_of));
-      add_failures(panel, catalogue, study, *scheme, x_of);
-    };
-    if (scheme->stepping == Stepping::fixed)
-      add(steps, [](const Row& row) { return row.result.step.value_or(std::nan("")); });
-    if (scheme->stepping == Stepping::adaptive) add(tols, [](const Row& row) { return *row.setting.tol; });
-  }
-  figure.floor_note = "dotted: floor";
-  const MetricInfo shown = study.scene.model->metrics()[0];
-  for (const OrderRow& row : study.orders)
-    if (row.floor && row.metric == shown.name)
-      steps.levels.push_back({row.floor->level,
-                              {row.floor->step_to, row.floor->step_from},
-                              style_of_scheme(catalogue, *row.scheme)});
-  std::vector<double> declared;
-  for (const OrderRow& row : study.orders)
-    if (row.expected && std::find(declared.begin(), declared.end(), *row.expected) == declared.end())
-      declared.push_back(*row.expected);
-  for (double order : declared) steps.guides.push_back({order, fmt::format("order {:g}", order)});
-  for (output::Panel* panel : {&steps, &tols}) {
-    if (panel->series.empty()) continue;
-    add_bound(*panel, study);
-    figure.panels.push_back(*panel);
-  }
-  output::settle_styles(figure);
-  return figure;
-}
-
-output::Figure work_precision_figure(const Catalogue& catalogue, const Comparison& study) {
-  output::Figure figure;
-  figure.title = study.scene.name;
-  figure.hollow_note = "hollow: at or below the bound of the reference";
-  figure.failure_note = failure_note;
-  output::Panel time{.title = "CPU time", .x_label = "CPU time [s]", .y_label = error_label(study)};
-  output::Panel rates{
-      .title = "evaluations", .x_label = "evaluations of the rates", .y_label = error_label(study)};
-  for (const SchemeInfo* scheme : schemes_of(study)) {
-    time.series.push_back(series(catalogue, study, *scheme, [](const Row& row) {
-      return row.timing ? row.timing->median : std::nan("");
-    }));
-    for (const Row& row : study.rows)
-      if (row.scheme == scheme && !row.error.empty())
-        time.series.back().x_bars.push_back(row.timing ? output::Range{row.timing->min, row.timing->max}
-                                                       : output::Range{0.0, 0.0});
-    const auto evaluations = [](const Row& row) { return static_cast<double>(row.evaluations()); };
-    rates.series.push_back(series(catalogue, study, *scheme, evaluations));
-    add_failures(rates, catalogue, study, *scheme, [](const Row& row) {
-      return row.evaluations() > 0 ? static_cast<double>(row.evaluations()) : std::nan("");
-    });
-  }
-  add_bound(time, study);
-  add_bound(rates, study);
-  const bool timed =
-      std::any_of(study.rows.begin(), study.rows.end(), [](const Row& row) { return row.timing; });
-  if (timed) figure.panels.push_back(time);
-  figure.panels.push_back(rates);
-  output::settle_styles(figure);
-  return figure;
-}
-
-output::Figure drift_figure(const Catalogue& catalogue, const DriftStudy& study,
-                            const std::string& invariant) {
-  output::Figure figure;
-  figure.title = fmt::format("{}, {}", study.scene.name, invariant);
-  output::Panel panel{.title = "",
-                      .x_label = "time [s]",
-                      .y_label = fmt::format("|{} drift| / scale, running maximum", invariant)};
-  for (const DriftRow& row : study.drifts) {
-    if (row.invariant.info.name != invariant) continue;
-    const SchemeInfo& scheme = *study.rows[row.row].scheme;
-    output::Series series;
-    series.label = std::string(scheme.name);
-    series.style = style_of_scheme(catalogue, scheme);
-    if (study.has_ladder()) {
-      series.label += ", " + study.rows[row.row].setting.text();
-      series.style = static_cast<int>(row.row);
-    }
-    // Twelve points a decade of the running maximum are enough to see growth.
-    double largest = 0.0, next = 0.0;
-    for (std::size_t k = 0; k < row.invariant.times.size(); ++k) {
-      largest = std::max(largest, std::abs(row.invariant.drift[k]));
-      const double t = row.invariant.times[k];
-      if (t <= 0.0 || (t < next && k + 1 < row.invariant.times.size())) continue;
-      series.x.push_back(t);
-      series.y.push_back(largest);
-      next = t * std::pow(10.0, 1.0 / 12.0);
-    }
-    panel.series.push_back(std::move(series));
-  }
-  figure.panels.push_back(std::move(panel));
-  output::settle_styles(figure);
-  return figure;
 }
 
 }  // namespace gnomon

@@ -2,7 +2,6 @@
 #include <string>
 #include <vector>
 
-#include "src/output/figure.hpp"
 #include "src/output/table.hpp"
 #include "src/study/compare.hpp"
 #include "src/study/converge.hpp"
@@ -42,13 +41,5 @@ output::Table costs_table(const Comparison& study);
 output::Table drift_table(const DriftStudy& study);
 /// One row a run: what becomes of every invariant, how the run ended and the time it reached.
 output::Table drift_runs_table(const DriftStudy& study);
-
-/// Error against step, or against the tolerance in a second panel.
-output::Figure convergence_figure(const Catalogue& catalogue, const Convergence& study);
-/// Error against CPU time and against evaluations.
-output::Figure work_precision_figure(const Catalogue& catalogue, const Comparison& study);
-/// |drift| of one invariant against time.
-output::Figure drift_figure(const Catalogue& catalogue, const DriftStudy& study,
-                            const std::string& invariant);
 
 }  // namespace gnomon

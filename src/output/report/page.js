@@ -46,13 +46,23 @@ function superscript(exponent) {
   return String(exponent).replace("-", "\u207b").replace(/\d/g, (digit) => digits[digit]);
 }
 
-// Powers of ten only, unless the axis is so short that it has hardly any.
-function logTick(value, index, ticks) {
+// Ticks of a logarithmic axis: powers of ten, not more than ten of them, or 1, 2 and 5 times them on a short axis.
+function logTicks(scale) {
+  const from = Math.log10(scale.min), to = Math.log10(scale.max);
+  if (!Number.isFinite(from) || !Number.isFinite(to)) return;
+  const factors = to - from < 1.5 ? [1, 2, 5] : [1], every = Math.max(1, Math.ceil((to - from) / 10));
+  const ticks = [];
+  for (let exponent = Math.floor(from); exponent <= Math.ceil(to); ++exponent)
+    for (const factor of factors) {
+      const value = Number(`${factor}e${exponent}`);
+      if (exponent % every === 0 && value >= scale.min && value <= scale.max) ticks.push({ value, major: factor === 1 });
+    }
+  if (ticks.length > 1) scale.ticks = ticks;
+}
+
+function logLabel(value) {
   const exponent = Math.log10(value);
-  const decades = Math.log10(ticks[ticks.length - 1].value / ticks[0].value);
-  if (Math.abs(exponent - Math.round(exponent)) > 1e-6) return decades < 1.5 ? Number(value.toPrecision(2)).toString() : null;
-  const every = Math.max(1, Math.ceil(decades / 10));
-  return Math.round(exponent) % every === 0 ? "10" + superscript(Math.round(exponent)) : null;
+  return Math.abs(exponent - Math.round(exponent)) > 1e-6 ? Number(value.toPrecision(2)).toString() : "10" + superscript(Math.round(exponent));
 }
 
 function dashOf(dash) {
@@ -76,7 +86,8 @@ function datasetOf(series, logX, logY) {
 function axis(label, log) {
   return {
     type: log ? "logarithmic" : "linear", title: { display: true, text: label, color: "#1a1a1a" },
-    grid: { color: "#e6e6e6" }, ticks: log ? { callback: logTick, autoSkip: false, maxRotation: 0, color: "#1a1a1a" } : {},
+    grid: { color: "#e6e6e6" }, ticks: log ? { callback: logLabel, autoSkip: false, maxRotation: 0, color: "#1a1a1a" } : {},
+    afterBuildTicks: log ? logTicks : undefined,
   };
 }
 
@@ -146,7 +157,20 @@ const errorBars = {
   },
 };
 
-function makePlot(holder, panel, note, failureNote) {
+// The corners of a Pareto front as steps from the top of the data to their right.
+function frontSteps(front, mostX, mostY) {
+  const steps = [];
+  let y = mostY;
+  for (const [x, at] of front.slice().sort((a, b) => a[0] - b[0] || a[1] - b[1])) {
+    if (steps.length > 0 && at >= y) continue;
+    steps.push({ x, y }, { x, y: at });
+    y = at;
+  }
+  if (steps.length > 0) steps.push({ x: Math.max(mostX, steps[steps.length - 1].x), y });
+  return steps;
+}
+
+function makePlot(holder, panel, figure) {
   const box = document.createElement("div");
   box.className = "plot";
   const canvas = document.createElement("canvas");
@@ -165,15 +189,32 @@ function makePlot(holder, panel, note, failureNote) {
       borderColor: "#777777", borderDash: [2, 3], borderWidth: 1.2, pointRadius: 0, pointHitRadius: 0, pointStyle: "line",
     });
   }
-  // Runs that failed have no error: crosses at the top.
-  const failures = panel.failures.filter((each) => each.x !== null && (!panel.log_x || each.x > 0));
-  if (failures.length > 0 && ys.length > 0)
+  const usable = (value, log) => value !== null && (!log || value > 0);
+  const front = panel.front.filter(([x, y]) => usable(x, panel.log_x) && usable(y, panel.log_y));
+  if (front.length > 0 && xs.length > 0)
     datasets.push({
-      label: failureNote, data: failures.map((each) => ({ x: each.x, y: Math.max(...ys), what: each.label })), showLine: false,
+      label: figure.front_note, data: frontSteps(front, Math.max(...xs), Math.max(...ys)), borderColor: "#c4c4c4", borderWidth: 3,
+      pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 1,
+    });
+  // Runs that failed have no error: crosses above all data, those of one place above each other; at the left where their
+  // place is not known.
+  const failures = panel.failures.filter((each) => each.x === null || usable(each.x, panel.log_x));
+  const failedXs = failures.map((each) => each.x).concat(xs).filter((x) => x !== null);
+  if (failures.length > 0 && ys.length > 0 && failedXs.length > 0) {
+    const most = Math.max(...ys), least = Math.min(...ys), lowest = Math.min(...failedXs), stacked = new Map();
+    const raised = (by) => panel.log_y ? most * Math.pow(Math.max(10, most / least), by) : most + by * (most - least || 1);
+    datasets.push({
+      label: figure.failure_note, showLine: false,
+      data: failures.map((each) => {
+        const x = each.x === null ? lowest : each.x, place = stacked.get(x) || 0;
+        stacked.set(x, place + 1);
+        return { x, y: raised(0.06 + 0.025 * place), what: each.label };
+      }),
       borderColor: "#777777", pointStyle: "crossRot", pointRadius: 5, pointHoverRadius: 7, pointBorderWidth: 1.6,
       pointBorderColor: failures.map((each) => each.colour),
     });
-  const title = [panel.title, datasets.some((each) => each.data.some((point) => point.hollow)) ? note : ""];
+  }
+  const title = [panel.title, datasets.some((each) => each.data.some((point) => point.hollow)) ? figure.hollow_note : ""];
   return new Chart(canvas, {
     type: "line", data: { datasets }, plugins: [dragZoom, errorBars],
     options: {
@@ -203,7 +244,7 @@ function makeFigure(figure) {
   figure.classList.add("live");
   if (figure.querySelector("img.drawn")) figure.classList.add("has-drawn");
   const content = JSON.parse(data.textContent);
-  for (const panel of content.panels) gnomonPlots.push(makePlot(figure.querySelector(".plots"), panel, content.hollow_note, content.failure_note));
+  for (const panel of content.panels) gnomonPlots.push(makePlot(figure.querySelector(".plots"), panel, content));
 }
 
 document.querySelectorAll("table.sortable").forEach(makeSortable);
