@@ -13,7 +13,7 @@ namespace gnomon::output {
 
 inline constexpr double text_size = 15.0;
 inline constexpr double line_height = 22.0;
-inline constexpr const char* front_colour = "#c4c4c4";
+inline constexpr const char* front_colour = "#b4b4b4";
 inline constexpr double front_width = 3.0;
 
 enum class Anchor { left, centre, right };

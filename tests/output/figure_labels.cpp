@@ -75,6 +75,47 @@ TEST_CASE("output: names stand at line ends only where all fit") {
   CHECK_FALSE(labels_at_ends(narrow, wide, 15.0));
 }
 
+TEST_CASE("output: labels along lines keep off lines and labels") {
+  const Box area = {0.0, 0.0, 400.0, 300.0};
+  Occupied occupied(area);
+  std::vector<LabelledLine> lines;
+  // A fan: at its left end all lines are close to each other.
+  for (int k = 0; k < 6; ++k) {
+    const Point from{20.0, 150.0}, to{300.0, 30.0 + 48.0 * k};
+    occupied.add_line(from, to);
+    lines.push_back({{from, {160.0, 0.5 * (from.y + to.y)}, to}, 80.0});
+  }
+  const Occupied before = occupied;
+  const auto places = labels_along(occupied, lines, 15.0);
+  REQUIRE(places);
+  Occupied labels(area);
+  for (const LabelPlace& place : *places) {
+    const Box box = {place.text.x, place.text.y - 7.5, place.text.x + 80.0, place.text.y + 7.5};
+    CHECK(before.is_free(box));
+    CHECK(labels.is_free(box));
+    labels.add_box(box);
+    CHECK_FALSE(occupied.is_free(box));
+    if (place.leader) CHECK(std::hypot(place.to.x - place.from.x, place.to.y - place.from.y) <= 80.0);
+  }
+  // The right ends are the freest.
+  CHECK((*places)[0].text.x > 250.0);
+  Occupied full(area);
+  full.add_box(area);
+  CHECK_FALSE(labels_along(full, lines, 15.0));
+  const std::vector<LabelledLine> same(30, lines[0]);
+  Occupied crowded(area);
+  CHECK_FALSE(labels_along(crowded, same, 15.0));
+}
+
+TEST_CASE("output: what lies on a line is seen") {
+  Occupied occupied({0.0, 0.0, 100.0, 100.0});
+  CHECK(occupied.is_free_along({10.0, 10.0}, {90.0, 80.0}));
+  occupied.add_box({48.0, 40.0, 52.0, 50.0});
+  CHECK_FALSE(occupied.is_free_along({10.0, 10.0}, {90.0, 80.0}));
+  CHECK(occupied.is_free_along({10.0, 80.0}, {90.0, 80.0}));
+  CHECK_FALSE(occupied.is_free_along({10.0, 80.0}, {190.0, 80.0}));
+}
+
 TEST_CASE("output: guides stand in free space, with their slopes") {
   const Box area = {0.0, 0.0, 600.0, 500.0};
   Occupied occupied(area);

@@ -40,21 +40,89 @@ bool overlap(const Box& a, const Box& b) {
   return a.left < b.right && b.left < a.right && a.bottom < b.top && b.bottom < a.top;
 }
 
+/// Boxes of the labels of the ticks, which gnuplot places.
+std::vector<Box> tick_boxes(const DrawnPanel& panel) {
+  const auto width_of = [](const std::string& label) {
+    const std::size_t power = label.find("^{");
+    if (power == std::string::npos) return text_width(label, text_size);
+    return text_width(label.substr(0, power), text_size) +
+           text_width(label.substr(power + 2, label.size() - power - 3), 0.8 * text_size);
+  };
+  const Box& frame = panel.frame;
+  std::vector<Box> boxes;
+  for (const Tick& tick : panel.x.ticks) {
+    if (tick.label.empty()) continue;
+    const double x = frame.left + panel.x.position(tick.value) * (frame.right - frame.left);
+    const double half = 0.5 * width_of(tick.label);
+    boxes.push_back({x - half, frame.bottom - 30.0, x + half, frame.bottom - 12.0});
+  }
+  for (const Tick& tick : panel.y.ticks) {
+    if (tick.label.empty() || !panel.y_labels) continue;
+    const double y = frame.bottom + panel.y.position(tick.value) * (frame.top - frame.bottom);
+    boxes.push_back({frame.left - 8.0 - width_of(tick.label), y - 7.0, frame.left - 8.0, y + 7.0});
+  }
+  return boxes;
+}
+
+/// Pairs of texts, or of a text and the label of a tick, that lie on each other.
+std::vector<std::string> overlaps(const Drawing& drawing) {
+  std::vector<std::pair<std::string, Box>> boxes;
+  for (const Text& text : all_texts(drawing)) boxes.emplace_back(text.text, box_of(text));
+  for (const DrawnPanel& panel : drawing.panels)
+    for (const Box& box : tick_boxes(panel)) boxes.emplace_back("a tick", box);
+  std::vector<std::string> pairs;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (overlap(boxes[i].second, boxes[j].second))
+        pairs.push_back(boxes[i].first + " on " + boxes[j].first);
+  return pairs;
+}
+
 void check_texts(const Drawing& drawing) {
-  const std::vector<Text> texts = all_texts(drawing);
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    CAPTURE(texts[i].text);
-    const Box box = box_of(texts[i]);
+  for (const Text& text : all_texts(drawing)) {
+    CAPTURE(text.text);
+    const Box box = box_of(text);
     CHECK(box.left >= 0.0);
     CHECK(box.bottom >= 0.0);
     CHECK(box.right <= drawing.width);
     CHECK(box.top <= drawing.height);
-    CHECK(texts[i].size >= 11.0 * 96.0 / 72.0);  // eleven points
-    for (std::size_t j = 0; j < i; ++j) {
-      CAPTURE(texts[j].text);
-      CHECK_FALSE(overlap(box, box_of(texts[j])));
-    }
+    CHECK(text.size >= 11.0 * 96.0 / 72.0);  // eleven points
   }
+  CHECK(overlaps(drawing) == std::vector<std::string>{});
+}
+
+/// Curves of eight points that fall from the high to the low end of y, each a little lower, and failed runs.
+Figure many_curves(std::size_t panels, int count, Range x, Range y) {
+  Figure figure;
+  figure.title = "many curves";
+  figure.hollow_note = "hollow: at or below the bound of the reference";
+  figure.front_note = "Pareto front";
+  figure.failure_note =
+      "12 runs failed: blanes-moan-rkn6-exact-drift 4, blanes-moan-rkn6-exact-drift-again 4, mclachlan8 4";
+  const auto between = [](Range range, double part) {
+    return std::pow(10.0, std::log10(range.low) + part * (std::log10(range.high) - std::log10(range.low)));
+  };
+  for (std::size_t p = 0; p < panels; ++p) {
+    Panel panel;
+    panel.title = "a panel";
+    panel.x_label = "CPU time [s]";
+    panel.y_label = "orientation error at t = 10 s [rad]";
+    for (int c = 0; c < count; ++c) {
+      Series series = {"blanes-moan-scheme-" + std::to_string(c), {}, {}, {}, c};
+      for (int k = 0; k < 8; ++k) {
+        series.x.push_back(between(x, k / 7.0));
+        series.y.push_back(between(y, 1.0 - (0.8 * k / 7.0 + 0.2 * c / count)));
+        series.hollow.push_back(k == 7);
+      }
+      panel.series.push_back(series);
+    }
+    panel.front = {{between(x, 0.2), between(y, 0.5)}, {between(x, 0.6), between(y, 0.1)}};
+    for (int k = 0; k < 12; ++k)
+      panel.failures.push_back(
+          {k < 4 ? std::numeric_limits<double>::quiet_NaN() : between(x, k % 4 / 4.0), k, "failed"});
+    figure.panels.push_back(panel);
+  }
+  return figure;
 }
 
 Text text_named(const Drawing& drawing, const std::string& name, const std::vector<Text>& texts) {
@@ -85,6 +153,79 @@ TEST_CASE("output: text in figures is large enough, inside and apart") {
   Figure one = convergence();
   one.panels.front().series.resize(1);
   check_texts(lay_out(one));
+}
+
+TEST_CASE("output: text of many curves and of extreme ranges stays apart") {
+  const std::vector<std::pair<Range, Range>> ranges = {{{1e-3, 1e2}, {1e-14, 1e0}},
+                                                       {{0.05, 0.5}, {1e-27, 1e290}},
+                                                       {{1e-299, 1e299}, {1e-299, 1e299}},
+                                                       {{1.0, 1.001}, {3.0, 3.0}}};
+  for (const std::size_t panels : {1U, 2U})
+    for (const int count : {1, 8, 16, 40, 90})
+      for (const auto& [x, y] : ranges) {
+        CAPTURE(panels, count, x.low, y.low);
+        const Figure figure = many_curves(panels, count, x, y);
+        const Drawing drawing = lay_out(figure);
+        check_texts(drawing);
+        const std::vector<Text> texts = all_texts(drawing);
+        for (const Series& series : figure.panels[0].series) CHECK(times_named(texts, series.label) == 1);
+      }
+  // It would be seen.
+  Drawing squeezed = lay_out(many_curves(1, 40, {1.0, 2.0}, {1.0, 2.0}));
+  for (Text& text : squeezed.decoration.texts) text.at.y *= 0.7;
+  CHECK(overlaps(squeezed).size() > 10);
+}
+
+TEST_CASE("output: a key too long for the right side stands below in columns") {
+  const Drawing drawing = lay_out(many_curves(1, 40, {1e-3, 1.0}, {1e-9, 1.0}));
+  const Text first = text_named(drawing, "blanes-moan-scheme-0", drawing.decoration.texts);
+  const Text last = text_named(drawing, "blanes-moan-scheme-39", drawing.decoration.texts);
+  CHECK(first.at.y < drawing.panels.front().frame.bottom - 50.0);
+  CHECK(last.at.x > first.at.x + 100.0);
+  CHECK(drawing.height > 700.0);
+  CHECK(drawing.panels.front().frame.top - drawing.panels.front().frame.bottom >= 400.0);
+}
+
+TEST_CASE("output: a few curves of two panels are named in one of them, without a key") {
+  Figure figure = work_precision_in_two_panels();
+  for (Panel& panel : figure.panels)
+    panel.series = {panel.series[1], panel.series[3], panel.series[5], panel.series[8]};
+  const Drawing drawing = lay_out(figure);
+  check_texts(drawing);
+  for (const char* name : {"munjiza-half-impulse", "rkmk4", "cvode-bdf", "arkode-erk8"}) {
+    const Text text = text_named(drawing, name, drawing.panels[1].decoration.texts);
+    CHECK(text.at.x > drawing.panels[1].frame.left);
+    CHECK(text.at.x < drawing.panels[1].frame.right);
+    CHECK(times_named(drawing.decoration.texts, name) == 0);
+  }
+  CHECK(text_named(drawing, "rkmk4", drawing.panels[1].decoration.texts).colour == style_of(3).text_colour);
+  // One panel cannot name a curve it does not show.
+  figure.panels[1].series.pop_back();
+  const Drawing left = lay_out(figure);
+  CHECK(times_named(left.panels[0].decoration.texts, "arkode-erk8") == 1);
+}
+
+TEST_CASE("output: a Pareto front is drawn as steps behind the curves") {
+  Figure figure = convergence();
+  figure.front_note = "Pareto front";
+  CHECK(times_named(all_texts(lay_out(figure)), "Pareto front") == 0);
+  Panel& panel = figure.panels.front();
+  panel.front = {{0.02, 1e-9}, {0.005, 1e-5}, {0.01, 1e-5}, {-1.0, 1e-3}};
+  const Drawing drawing = lay_out(figure);
+  check_texts(drawing);
+  CHECK(times_named(all_texts(drawing), "Pareto front") == 1);
+  const DrawnPanel& drawn = drawing.panels.front();
+  const std::vector<Point> wanted = {
+      {0.005, drawn.y.range.high}, {0.005, 1e-5}, {0.02, 1e-5}, {0.02, 1e-9}, {drawn.x.range.high, 1e-9}};
+  REQUIRE(drawn.front.size() == wanted.size());
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    CHECK(drawn.front[k].x == wanted[k].x);
+    CHECK(drawn.front[k].y == wanted[k].y);
+  }
+  const std::string script = gnuplot_script(drawing, "a.svg", "a.png", "a.pdf");
+  CHECK(script.find("plot $panel0_front using 1:2 with lines") != std::string::npos);
+  CHECK(gnuplot_script(lay_out(convergence()), "a.svg", "a.png", "a.pdf").find("_front") ==
+        std::string::npos);
 }
 
 TEST_CASE("output: curves that reach the right end are named beside the frame, in their colours") {
@@ -263,6 +404,10 @@ TEST_CASE("output: failed runs are crosses at the top, error bars span what they
     CHECK(cross.at.y < drawn.frame.top);
     CHECK(cross.at.y > drawn.frame.top - 40.0);
   }
+  // Above all data, which have their own place below.
+  for (const Series& each : panel.series)
+    for (std::size_t k = 0; k < each.x.size(); ++k)
+      CHECK(to_pixels(drawn, {each.x[k], each.y[k]}).y < crosses[1].at.y - 6.0);
   const double position = drawn.frame.left + drawn.x.position(x) * (drawn.frame.right - drawn.frame.left);
   CHECK(std::abs(crosses[0].at.x - position) <= 1e-9);
   REQUIRE(drawn.curves[0].bars.size() == drawn.curves[0].filled.size() + drawn.curves[0].hollow.size() - 1);
@@ -274,6 +419,14 @@ TEST_CASE("output: failed runs are crosses at the top, error bars span what they
   const std::string script = gnuplot_script(drawing, "a.svg", "a.png", "a.pdf");
   CHECK(script.find("with xerrorbars") != std::string::npos);
   CHECK(gnuplot_script(without, "a.svg", "a.png", "a.pdf").find("with xerrorbars") == std::string::npos);
+  // One whose place is not known stands at the left edge.
+  panel.failures = {{std::numeric_limits<double>::quiet_NaN(), 1, "crashed"}};
+  const Drawing crashed = lay_out(figure);
+  const auto& marks = crashed.panels.front().decoration.marks;
+  const auto cross =
+      std::find_if(marks.begin(), marks.end(), [](const Mark& mark) { return mark.type == 2; });
+  REQUIRE(cross != marks.end());
+  CHECK(cross->at.x < crashed.panels.front().frame.left + 12.0);
   // As many bars as values, or none.
   series.x_bars.pop_back();
   CHECK_THROWS_AS(lay_out(figure), std::invalid_argument);

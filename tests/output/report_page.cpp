@@ -36,6 +36,8 @@ ReportPage sample_page() {
   panel.series.back().x_bars = {{0.9e-5, 1.2e-5}, {0.9e-4, 1.2e-4}, {0.0, 0.0}};
   panel.failures.push_back({1e-2, 1, "two, step 1: diverged <"});
   figure.failure_note = "a run that failed";
+  figure.front_note = "Pareto front";
+  panel.front = {{1.0, 0.1}, {2.0, 0.01}};
   panel.reference_lines.push_back({1e-15, "bound of the reference"});
   figure.panels = {panel, panel};
   ReportPage page;
@@ -94,6 +96,7 @@ TEST_CASE("output: data of plots are JSON without what a page could trip over") 
   CHECK(contains(json, "\"label\":\"one \\u003c/script>\""));
   CHECK(contains(json, "\"y\":[0.1,null,0.0]"));
   CHECK(contains(json, "\"hollow\":[false,false,true]"));
+  CHECK(contains(json, "\"front\":[[1.0,0.1],[2.0,0.01]]"));
 }
 
 TEST_CASE("output: figures without a drawing and without scripts are said to be missing") {

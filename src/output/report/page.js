@@ -193,7 +193,7 @@ function makePlot(holder, panel, figure) {
   const front = panel.front.filter(([x, y]) => usable(x, panel.log_x) && usable(y, panel.log_y));
   if (front.length > 0 && xs.length > 0)
     datasets.push({
-      label: figure.front_note, data: frontSteps(front, Math.max(...xs), Math.max(...ys)), borderColor: "#c4c4c4", borderWidth: 3,
+      label: figure.front_note, data: frontSteps(front, Math.max(...xs), Math.max(...ys)), borderColor: "#b4b4b4", borderWidth: 3,
       pointRadius: 0, pointHitRadius: 0, pointStyle: "line", order: 1,
     });
   // Runs that failed have no error: crosses above all data, those of one place above each other; at the left where their
