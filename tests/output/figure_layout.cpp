@@ -172,7 +172,7 @@ TEST_CASE("output: text of many curves and of extreme ranges stays apart") {
       }
   // It would be seen.
   Drawing squeezed = lay_out(many_curves(1, 40, {1.0, 2.0}, {1.0, 2.0}));
-  for (Text& text : squeezed.decoration.texts) text.at.y *= 0.7;
+  for (Text& text : squeezed.decoration.texts) text.at.y *= 0.5;
   CHECK(overlaps(squeezed).size() > 10);
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("output: curves that reach the right end are named beside the frame, i
   CHECK(drawing.left_out.empty());
 }
 
-TEST_CASE("output: a few curves are named at their ends, many in a key") {
+TEST_CASE("output: a few curves are named at their ends or along them, many in a key") {
   Figure figure = work_precision();
   auto& series = figure.panels.front().series;
   series = {series[1], series[3], series[5], series[8]};
@@ -252,19 +252,29 @@ TEST_CASE("output: a few curves are named at their ends, many in a key") {
   }
   CHECK(times_named(few.decoration.texts, "rkmk4") == 0);
 
-  const Drawing many = lay_out(work_precision());
-  for (const char* name : {"munjiza", "arkode-erk8", "exact-free-top"}) {
-    CHECK(text_named(many, name, many.decoration.texts).at.x > many.panels.front().frame.right);
-    CHECK(times_named(many.panels.front().decoration.texts, name) == 0);
+  const Drawing more = lay_out(work_precision());
+  for (const char* name : {"munjiza", "arkode-erk8", "exact-free-top"})
+    CHECK(text_named(more, name, more.panels.front().decoration.texts).at.x <
+          more.panels.front().frame.right);
+
+  // There is no place for twenty names about one point.
+  series.assign(20, {"", {1.0}, {1e-3}, {}, 0});
+  for (std::size_t k = 0; k < series.size(); ++k) series[k].label = "scheme-number-" + std::to_string(k);
+  const Drawing many = lay_out(figure);
+  check_texts(many);
+  for (const Series& each : series) {
+    CHECK(text_named(many, each.label, many.decoration.texts).at.x > many.panels.front().frame.right);
+    CHECK(times_named(many.panels.front().decoration.texts, each.label) == 0);
   }
 }
 
-TEST_CASE("output: panels share one key and, side by side, the y axis") {
+TEST_CASE("output: panels share names or a key and, side by side, the y axis") {
   const Drawing drawing = lay_out(work_precision_in_two_panels());
   REQUIRE(drawing.panels.size() == 2);
   CHECK(times_named(all_texts(drawing), "rkmk4") == 1);
   CHECK(times_named(all_texts(drawing), "exact-free-top") == 1);
-  CHECK(text_named(drawing, "rkmk4", drawing.decoration.texts).at.y < drawing.panels[0].frame.bottom);
+  const Drawing many = lay_out(many_curves(2, 40, {1e-3, 1.0}, {1e-9, 1.0}));
+  CHECK(text_named(many, "blanes-moan-scheme-7", many.decoration.texts).at.y < many.panels[0].frame.bottom);
   CHECK(drawing.panels[0].y.range.low == drawing.panels[1].y.range.low);
   CHECK(drawing.panels[0].y.range.high == drawing.panels[1].y.range.high);
   CHECK(drawing.panels[0].y_labels);
