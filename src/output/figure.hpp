@@ -73,9 +73,9 @@ struct Panel {
   std::vector<Series> series;
 };
 
-/// One panel, or several (two in a row) that share the names of their curves. All text is plain: nothing in it is markup.
-/// Panels whose y axes have the same label and scale get the same y range, and those that stand in one row
-/// show its labels once.
+/// One panel, or several (two in a row) that share the names of their curves. All text is plain: nothing in
+/// it is markup. Panels whose y axes have the same label and scale get the same y range, and those that stand
+/// in one row show its labels once.
 struct Figure {
   std::string title;
   std::string caption;         ///< not drawn; the title of the SVG document, which screen readers read
@@ -94,12 +94,12 @@ struct FigureResult {
   explicit operator bool() const { return written; }
 };
 
-/// Draw `figure` into `stem`.svg (900 x 600 px, more for several panels or many curves), `stem`.png (twice the pixels) and,
-/// where gnuplot has the terminal pdfcairo, `stem`.pdf; where it has not, an older PDF of that name is
-/// removed. Each file is written whole or not at all; parent folders are made. If `gnuplot` (a name looked up
-/// in PATH, or an absolute path) is missing or fails, nothing is written and the message says why. The same
-/// data give the same bytes with the same gnuplot and fonts. Throws std::invalid_argument if lengths of a
-/// series differ.
+/// Draw `figure` into `stem`.svg (900 x 600 px, more for several panels or many curves), `stem`.png (twice
+/// the pixels) and, where gnuplot has the terminal pdfcairo, `stem`.pdf; where it has not, an older PDF of
+/// that name is removed. Each file is written whole or not at all; parent folders are made. If `gnuplot` (a
+/// name looked up in PATH, or an absolute path) is missing or fails, nothing is written and the message says
+/// why. The same data give the same bytes with the same gnuplot and fonts. Throws std::invalid_argument if
+/// lengths of a series differ.
 FigureResult write_figure(const Figure& figure, const std::filesystem::path& stem,
                           const std::string& gnuplot = "gnuplot");
 

@@ -287,7 +287,7 @@ void make_axes(Drawing& drawing, const Figure& figure, Naming naming, double wid
   }
 }
 
-/// Names the curves of a panel; true if its way of naming is another one.
+/// Names the curves within the frame of a panel, if that is the way. False if there is no place for them.
 bool name_curves(DrawnPanel& panel, Naming::Kind naming, Occupied& occupied) {
   switch (naming) {
     case Naming::Kind::at_ends:
@@ -335,8 +335,8 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
     if (named && naming.kind == Kind::beside_frame && !name_beside_frame(panel, occupied))
       return std::nullopt;
     const auto lines = add_reference_lines(panel, figure.panels[p], occupied);
-    if (named && !name_curves(panel, naming.kind, occupied)) return std::nullopt;
     name_reference_lines(panel, lines, occupied);
+    if (named && !name_curves(panel, naming.kind, occupied)) return std::nullopt;
     if (!add_guides(panel, figure.panels[p], occupied)) {
       drawing.left_out.push_back("guide lines: no free place");
     }

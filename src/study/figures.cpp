@@ -78,7 +78,8 @@ std::string crosses_note(const SceneStudy& study, std::string_view what, Crossed
   int others = 0;
   for (std::size_t k = 0; k < counts.size(); ++k) {
     if (k < most_named)
-      text += fmt::format("{} {} {}", k == 0 ? "" : ",", counts[k].first, counts[k].second);
+      // A no-break space, so that a number stays with its name.
+      text += fmt::format("{} {}\u00a0{}", k == 0 ? "" : ",", counts[k].first, counts[k].second);
     else
       others += counts[k].second;
   }

@@ -72,7 +72,7 @@ TEST_CASE("figures: drift over a ladder is drawn against the step, clipped to wh
   for (const output::Failure& failure : panel.failures) places.push_back(failure.x);
   CHECK(places == std::vector<double>{0.08, 0.16, 0.32});
   CHECK(figure.failure_note.starts_with("3 runs failed or drifted by more than 10: "));
-  CHECK(figure.failure_note.ends_with(" 3"));
+  CHECK(figure.failure_note.ends_with("\u00a03"));
 }
 
 TEST_CASE("figures: drift of one step is drawn against time, up to where it can be read", "[study]") {

@@ -204,7 +204,7 @@ function makePlot(holder, panel, figure) {
     const most = Math.max(...ys), least = Math.min(...ys), lowest = Math.min(...failedXs), stacked = new Map();
     const raised = (by) => panel.log_y ? most * Math.pow(Math.max(10, most / least), by) : most + by * (most - least || 1);
     datasets.push({
-      label: figure.failure_note, showLine: false,
+      label: figure.failure_note.split(":")[0], showLine: false,
       data: failures.map((each) => {
         const x = each.x === null ? lowest : each.x, place = stacked.get(x) || 0;
         stacked.set(x, place + 1);
