@@ -294,15 +294,18 @@ std::optional<GuidePlace> place_guides(Occupied& occupied, const Box& area, cons
 
 Point label_on_horizontal(Occupied& occupied, const Box& area, double y, double text_width,
                           double text_height) {
-  // More than a cell from the line, which is an obstacle itself.
-  const double offset = 0.5 * text_height + 1.3 * cell_size;
   const double rightmost = area.right - text_width - 8.0;
-  Point chosen = {rightmost, y + offset};
+  Point chosen = {rightmost, y + 0.5 * text_height + 1.3 * cell_size};
   bool found = false;
-  for (const double side : {offset, -offset}) {
-    for (double x = rightmost; x >= area.left + 8.0 && !found; x -= 6.0) {
-      found = occupied.is_free(text_box({x, y + side}, text_width, text_height));
-      if (found) chosen = {x, y + side};
+  // Where it is tight, with no more than the letters themselves need.
+  for (const double height : {text_height, 0.7 * text_height}) {
+    // More than a cell from the line, which is an obstacle itself.
+    const double offset = 0.5 * height + 1.3 * cell_size;
+    for (const double side : {offset, -offset}) {
+      for (double x = rightmost; x >= area.left + 8.0 && !found; x -= 6.0) {
+        found = occupied.is_free(text_box({x, y + side}, text_width, height));
+        if (found) chosen = {x, y + side};
+      }
     }
   }
   occupied.add_box(text_box(chosen, text_width, text_height));

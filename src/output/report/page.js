@@ -121,8 +121,7 @@ function zoom(chart, from, to) {
   for (const [name, place] of [["x", "x"], ["y", "y"]]) {
     const options = chart.options.scales[name];
     if (from === null) {
-      delete options.min;
-      delete options.max;
+      Object.assign(options, chart.$whole[name]);
       continue;
     }
     const ends = [from[place], to[place]].map((pixel) => chart.scales[name].getValueForPixel(pixel)).sort((a, b) => a - b);
@@ -156,6 +155,13 @@ const errorBars = {
     ctx.restore();
   },
 };
+
+// The ends of an axis, a little beyond the data on a logarithmic one; else the library chooses them.
+function rangeOf(values, log) {
+  if (!log || values.length === 0) return { min: undefined, max: undefined };
+  const least = Math.min(...values), most = Math.max(...values), factor = Math.max(1.1, Math.pow(most / least, 0.04));
+  return { min: least / factor, max: most * factor };
+}
 
 // The corners of a Pareto front as steps from the top of the data to their right.
 function frontSteps(front, mostX, mostY) {
@@ -214,14 +220,18 @@ function makePlot(holder, panel, figure) {
       pointBorderColor: failures.map((each) => each.colour),
     });
   }
+  const every = datasets.flatMap((each) => each.data);
+  const whole = {
+    x: rangeOf(every.map((point) => point.x), panel.log_x), y: rangeOf(every.map((point) => point.y), panel.log_y),
+  };
   const title = [panel.title, datasets.some((each) => each.data.some((point) => point.hollow)) ? figure.hollow_note : ""];
-  return new Chart(canvas, {
+  const chart = new Chart(canvas, {
     type: "line", data: { datasets }, plugins: [dragZoom, errorBars],
     options: {
       animation: false, maintainAspectRatio: false, parsing: false, normalized: false, events:
         ["mousemove", "mouseout", "click", "mousedown", "mouseup", "dblclick", "touchstart", "touchmove"],
       interaction: { mode: "nearest", intersect: true },
-      scales: { x: axis(panel.x_label, panel.log_x), y: axis(panel.y_label, panel.log_y) },
+      scales: { x: { ...axis(panel.x_label, panel.log_x), ...whole.x }, y: { ...axis(panel.y_label, panel.log_y), ...whole.y } },
       plugins: {
         title: { display: title.join("") !== "", text: title.filter((line) => line !== ""), color: "#1a1a1a" },
         legend: { position: "bottom", labels: { usePointStyle: true, boxWidth: 8, boxHeight: 8, font: { size: 11 }, color: "#1a1a1a" } },
@@ -234,6 +244,8 @@ function makePlot(holder, panel, figure) {
       },
     },
   });
+  chart.$whole = whole;
+  return chart;
 }
 
 const gnomonPlots = [];
