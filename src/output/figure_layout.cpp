@@ -354,8 +354,11 @@ std::optional<Drawing> drawing_with(const Figure& figure, const std::vector<std:
 /// Ways to name the curves, the best first.
 std::vector<Naming> namings(const Figure& figure, const std::vector<std::vector<Curve>>& curves) {
   using Kind = Naming::Kind;
-  if (figure.panels.size() == 1 && std::ranges::any_of(figure.panels.front().series, &Series::marks_only))
-    return {{Kind::key_right}, {Kind::key_below}};  // a map
+  const bool map = std::ranges::any_of(figure.panels, [](const Panel& panel) {
+    return std::ranges::any_of(panel.series, &Series::marks_only);
+  });
+  if (map && figure.panels.size() == 1) return {{Kind::key_right}, {Kind::key_below}};
+  if (map) return {{Kind::key_below}};
   if (figure.panels.size() == 1)
     return {{Kind::beside_frame},   {Kind::at_ends, 0, true}, {Kind::along},
             {Kind::along, 0, true}, {Kind::key_right},        {Kind::key_below}};
