@@ -7,7 +7,7 @@ namespace fs = std::filesystem;
 using namespace gnomon::test;
 using namespace gnomon::test::cli;
 
-TEST_CASE("cli: stability shows how schemes fail over step and parameter and ends with 0", "[cli]") {
+TEST_CASE("cli: stability shows how schemes fail over step and parameter and ends with 0", "[cli][long]") {
   const TemporaryFolder folder;
   const Outcome outcome =
       run_program({"stability", "free-flight", "--t-end", "40", "--integrators", "beam-midpoint", "--vary",
