@@ -179,6 +179,9 @@ TEST_CASE("cli: a malformed scene is refused with file, line, key, what was foun
        "attractor, rad)"},
       {good + "[load]\nkind = \"attitude_potential\"\nattractor = [1, 0, 0]\nrest = inf\n",
        "s.toml:10: load.rest: found inf, expected a finite number (length of the spring at rest)"},
+      {good + "[load]\nkind = \"attitude_potential\"\nattraction = 1\nattractor = [0, 0, 0]\n",
+       "s.toml:10: load.attractor: found [0, 0, 0], expected another attitude than the one at t = 0: the "
+       "potential is infinite at the attractor"},
       {good + "[load]\nkind = \"none\"\nmoment = [1, 2, 3]\n",
        "s.toml:9: load.moment: found a key unknown to kind \"none\", expected kind"},
   };

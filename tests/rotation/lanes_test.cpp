@@ -230,6 +230,28 @@ TEST_CASE("lanes: the error follows the tolerance", "[rotation][lanes]") {
   }
 }
 
+TEST_CASE("lanes: a tolerance below rounding is met as well as it can be", "[rotation][lanes]") {
+  using namespace lanes_test;
+  const Catalogue catalogue = full_catalogue();
+  for (const char* name : {"slow-heavy-top", "steady-precession", "heavy-symmetric-top", "fast-heavy-top",
+                           "asymmetric-heavy-top", "asymmetric-free-top"}) {
+    const Scene scene = load_scene(catalogue, name);
+    const ReferenceStates reference = scene.model->reference({scene.t_end});
+    REQUIRE(!reference.states.empty());
+    const long enough = run_with(catalogue, scene, 1e-12).cost.steps;
+    for (double tol : {1e-13, 1e-14}) {
+      const RunResult result = run_with(catalogue, scene, tol);
+      INFO(name << ", tol " << tol << ": " << result.message << ", steps " << result.cost.steps << " + "
+                << result.cost.rejected);
+      REQUIRE(result.status == Status::ok);
+      const double error = scene.model->distance(result.state, reference.states.back())[0];
+      CHECK(error <= 1e-10);
+      CHECK(error >= 1e-15);
+      CHECK(result.cost.steps + result.cost.rejected <= 2 * enough + 8);
+    }
+  }
+}
+
 TEST_CASE("lanes: what the motion keeps is kept to the tolerance", "[rotation][lanes]") {
   using namespace lanes_test;
   const Catalogue catalogue = full_catalogue();
