@@ -36,6 +36,7 @@ TEST_CASE("schemes: symplectic ones keep the energy of a top without symmetry, m
     INFO(scheme << ": slope " << drift.slope << " +- " << drift.slope_error << ", growth " << drift.growth);
     CHECK(drift.verdict == DriftVerdict::bounded);
     CHECK(std::abs(drift.slope) <= 1e-6);
+    CHECK(drift.growth <= 0.1);
     CHECK(drift.max_abs <= 0.2);
     CHECK(drift.max_abs >= 1e-3);  // it is seen at all
   }
@@ -44,6 +45,7 @@ TEST_CASE("schemes: symplectic ones keep the energy of a top without symmetry, m
     INFO(scheme << ": slope " << drift.slope << " +- " << drift.slope_error << ", growth " << drift.growth);
     CHECK(drift.verdict == DriftVerdict::secular);
     CHECK(std::abs(drift.slope) >= 3e-6);
+    CHECK(drift.growth >= 0.2);
   }
 }
 
