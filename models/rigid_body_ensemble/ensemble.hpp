@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -68,7 +69,10 @@ class Ensemble {
     time_scale_ = rate > 0.0 ? 1.0 / rate : horizon;
     if constexpr (!has_moment) {
       motions_.reserve(bodies_.size());
-      for (const Body& body : bodies_) motions_.push_back(motion<double>(body));
+      for (const Body& body : bodies_)
+        if (auto& top = motions_.emplace_back();
+            body.attitude.allFinite() && std::isfinite(body.angular_momentum.stableNorm()))
+          top.emplace(motion<double>(body));
     }
   }
 
@@ -198,7 +202,7 @@ class Ensemble {
     State state;
     state.bodies.reserve(bodies_.size());
     for (const auto& top : motions_) {
-      const auto body = top.at(t);
+      const auto body = top.value().at(t);
       state.bodies.push_back({body.orientation.toRotationMatrix(), body.angular_momentum});
     }
     return state;
@@ -206,7 +210,7 @@ class Ensemble {
   /// A bound of its errors, the largest of all bodies.
   std::array<double, 4> closed_form_bound(double t) const requires(!has_moment) {
     double bound = 0.0;
-    for (const auto& top : motions_) bound = std::max(bound, top.error_bound(t));
+    for (const auto& top : motions_) bound = std::max(bound, top.value().error_bound(t));
     bound += 8.0 * 2.2e-16;
     return {bound, bound, bound, bound};
   }
@@ -258,7 +262,7 @@ class Ensemble {
   Execution execution_;
   double horizon_;
   std::vector<double> momentum_scales_, energies_;
-  std::vector<rigid_body::ExactFreeTop<double>> motions_;  // of free bodies
+  std::vector<std::optional<rigid_body::ExactFreeTop<double>>> motions_;  // of free bodies
   double time_scale_ = 1.0;
 };
 
