@@ -46,10 +46,11 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::string failure_message(Status status, long step_index, double t, double h) {
+std::string failure_message(Status status, long step_index, double t, double h, bool by_scheme) {
   const char* what = "the step failed";
   if (status == Status::newton_failed) what = "Newton's iteration did not converge";
-  if (status == Status::diverged) what = "the state was no longer finite";
+  if (status == Status::diverged)
+    what = by_scheme ? "the motion grew beyond any scale" : "the state was no longer finite";
   return fmt::format("{} in step {} from t = {:.6g} s, step {:.3g} s", what, step_index + 1, t, h);
 }
 

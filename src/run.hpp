@@ -1,5 +1,7 @@
 #pragma once
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -72,7 +74,7 @@ std::vector<Stop> plan_stops(const RunSpec& spec, const StepPlan& plan,
 bool all_finite(const std::vector<double>& values);
 double wall_seconds();
 /// What a failed step means to the user.
-std::string failure_message(Status status, long step_index, double t, double h);
+std::string failure_message(Status status, long step_index, double t, double h, bool by_scheme = false);
 /// The same for a run that a limit ended.
 std::string limit_message(Status status, const RunSpec& spec);
 
@@ -147,7 +149,10 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
   auto state = detail::start_of<M, S>(model, spec);
   std::string caution;
   if constexpr (requires { S::caution(model, state, plan.h); }) caution = S::caution(model, state, plan.h);
-  if (!caution.empty()) result.flags.push_back(caution);
+  if (!caution.empty()) {
+    caution += " about the start";
+    result.flags.push_back(caution);
+  }
   auto checkpoint = state;
   const auto finite = [&](const auto& s) { return all_finite(model.flatten(S::view(model, s))); };
   detail::Recorder<M> recorder(model, result);
@@ -172,6 +177,7 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
     if (to - start == chunk && spent < 5e-3) chunk *= 2;
     if (result.status != Status::ok || !finite(state)) {
       const Status failure = result.status == Status::ok ? Status::diverged : result.status;
+      const bool by_scheme = result.status == Status::diverged;
       state = checkpoint;
       for (n = start; n < to; ++n) {
         checkpoint = state;
@@ -180,10 +186,15 @@ RunResult run_fixed(const M& model, const RunSpec& spec) {
       }
       state = checkpoint;
       result.status = failure;
-      result.message = failure_message(failure, n, static_cast<double>(n) * plan.h, plan.h);
+      result.message = failure_message(failure, n, static_cast<double>(n) * plan.h, plan.h, by_scheme);
       if (!caution.empty()) result.message += ": " + caution;
       break;
     }
+    if constexpr (requires { S::caution(model, state, plan.h); })
+      if (caution.empty() && !(caution = S::caution(model, state, plan.h)).empty()) {
+        caution += fmt::format(" about t = {:.3g} s", static_cast<double>(n) * plan.h);
+        result.flags.push_back(caution);
+      }
     if (next < stops.size() && stops[next].index == n) {
       const double t = n == plan.count ? spec.t_end : static_cast<double>(n) * plan.h;
       if (stops[next].watch) recorder.watch(t, S::view(model, state));

@@ -99,7 +99,8 @@ concept Scheme = requires {
 /// A scheme of equal steps on a model. Its `State` is everything it needs to go on; a copy of it is a
 /// checkpoint. `step` returns Status::ok, or why it could not (the state is then worthless); it allocates
 /// nothing. `start` may take SchemeOptions as a third argument. `caution(model, state, h)`, where a scheme
-/// has it, tells why steps of that size are likely to fail; empty if they are not.
+/// has it, tells why steps of that size are likely to fail from there; empty if they are not. It is asked at
+/// the start and along the run.
 template <class S, class M>
 concept FixedStepOn = Scheme<S> && Model<M> &&
     requires(const M& model, const typename M::State& start, double t, double h,

@@ -17,7 +17,8 @@ class Path {
  public:
   Path(StaticSystem& system, const StaticsOptions& options) : system_(system), options_(options) {
     const std::size_t n = static_cast<std::size_t>(system.size());
-    for (Vector* vector : {&u_, &from_, &change_, &before_, &residual_, &along_}) vector->assign(n, 0.0);
+    for (Vector* vector : {&u_, &from_, &change_, &predicted_, &before_, &residual_, &along_})
+      vector->assign(n, 0.0);
   }
 
   StaticPath follow() {
@@ -172,8 +173,10 @@ class Path {
       std::optional<int> iterations;
       double next = factor;
       for (;;) {
-        next = factor + sign * length / speed;
+        const double predicted = next = factor + sign * length / speed;
+        for (std::size_t i = 0; i < u_.size(); ++i) predicted_[i] = sign * length / speed * along_[i];
         iterations = length_step(factor, next, sign, length);
+        if (iterations && !follows(predicted, next, factor, length)) iterations.reset();
         if (iterations || length < least) break;
         u_ = from_;
         length *= 0.5;
@@ -228,6 +231,19 @@ class Path {
     }
     return std::nullopt;
   }
+  /// Whether a step of `length` from `factor` to `next`, which converged, is short enough to see what the
+  /// path does: the factor changes by no more than a step of the loads, by less than half of it otherwise
+  /// than predicted, and u goes where the tangent pointed.
+  bool follows(double predicted, double next, double factor, double length) const {
+    const double most = 1.0 / options_.load_steps;
+    double off = 0.0;
+    for (std::size_t i = 0; i < u_.size(); ++i) {
+      const double d = (change_[i] - predicted_[i]) * system_.lever(static_cast<int>(i));
+      off += d * d;
+    }
+    return std::abs(next - factor) <= (1.0 + 1e-9) * most && std::abs(next - predicted) <= 0.5 * most &&
+           std::sqrt(off) <= 0.5 * length;
+  }
   void set(double factor) {
     for (std::size_t i = 0; i < u_.size(); ++i) u_[i] = from_[i] + change_[i];
     system_.prescribe(factor, u_.data());
@@ -249,7 +265,7 @@ class Path {
   StaticSystem& system_;
   const StaticsOptions& options_;
   StaticPath path_;
-  Vector u_, from_, change_, before_, residual_, along_;
+  Vector u_, from_, change_, predicted_, before_, residual_, along_;
   double scale_ = 0.0;
 };
 

@@ -36,7 +36,7 @@ class StaticSystem {
 };
 
 struct StaticsOptions {
-  int load_steps = 10;        ///< the first step is 1/load_steps of the loads, no later one is larger
+  int load_steps = 10;        ///< no step is larger than 1/load_steps of the loads
   bool arc_length = false;    ///< follow the path by its length, past limit points, until the factor is 1
   double newton_tol = 1e-10;  ///< residual relative to the size of forces
   long max_points = 10'000;

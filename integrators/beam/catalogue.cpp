@@ -7,6 +7,7 @@
 #include "integrators/beam/linear_solvers.hpp"
 #include "integrators/beam/midpoint.hpp"
 #include "integrators/beam/mixed_midpoint.hpp"
+#include "integrators/beam/rk4.hpp"
 #include "integrators/beam/stander_stein.hpp"
 #include "integrators/beam/verlet.hpp"
 #include "models/planar_beam/types.hpp"
@@ -26,7 +27,8 @@ void add_beam_schemes(Catalogue& catalogue) {
                                                BeamHht,                     //
                                                BeamBathe,                   //
                                                BeamVerlet,                  //
-                                               BeamVerletConsistent>{});
+                                               BeamVerletConsistent,        //
+                                               BeamRk4>{});
   catalogue.reference_solvers.push_back({BeamEnergyMomentum4::info.name, 0.0, 0.0, 0.2});
   for (const std::vector<PartTask>& tasks : {linear_solver_tasks(), large_mesh_tasks()})
     catalogue.parts.insert(catalogue.parts.end(), tasks.begin(), tasks.end());

@@ -114,6 +114,12 @@ double NodalMotion::size_of(const Vector& force) const {
   return std::sqrt(sum);
 }
 
+bool NodalMotion::torn() const {
+  const planar_beam::CrossSection section = beam->section();
+  const double length = beam->length();
+  return size_of(internal) > 1e6 * std::max({section.EA, section.GA, section.EI / (length * length)});
+}
+
 double NodalMotion::residual(const Stage& stage, const Vector& start_v, const Vector& known,
                              const Vector& at_a, const Vector& force) {
   const double damped = stage.force * damping_;

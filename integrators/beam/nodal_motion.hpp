@@ -44,6 +44,8 @@ class NodalMotion {
              Vector& at_v, Vector& at_a, Vector& force);
   /// Norm of forces and, divided by the length of the beam, moments.
   double size_of(const Vector& force) const;
+  /// Whether `internal` is that of strains beyond 1e6, which only an unstable scheme reaches.
+  bool torn() const;
   Cost cost(long steps) const;
 
   NodalBeamValue beam;

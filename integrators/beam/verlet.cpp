@@ -71,17 +71,18 @@ double stable_step(const NodalBeam& beam, const double* u, Mass mass) {
   return 2.0 / std::sqrt(highest);
 }
 
-VerletMotion::VerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
-                           const SchemeOptions& options, Mass mass)
-    : nodal(std::move(beam), std::move(u), std::move(v), options),
-      half_(nodal.u),
-      stable_(stable_step(*nodal.beam, nodal.u.data(), mass)) {
-  if (mass == Mass::lumped) nodal.lumped = nodal.beam->lumped_mass();
+std::string stability_caution(const NodalMotion& motion, Mass mass, double reach, double h) {
+  const double stable = 0.5 * reach * stable_step(*motion.beam, motion.u.data(), mass);
+  // Not finite where the motion is not, which ends the run anyway.
+  if (!(h > stable)) return "";
+  return fmt::format("the step is above {}/omega_max = {:.3g} s, up to which small motions are stable",
+                     reach == 2.0 ? "2" : "2 sqrt(2)", stable);
 }
 
-std::string VerletMotion::caution(double h) const {
-  if (h <= stable_) return "";
-  return fmt::format("the step is above 2/omega_max = {:.3g} s, up to which the scheme is stable", stable_);
+VerletMotion::VerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
+                           const SchemeOptions& options, Mass mass)
+    : nodal(std::move(beam), std::move(u), std::move(v), options), half_(nodal.u), mass_(mass) {
+  if (mass == Mass::lumped) nodal.lumped = nodal.beam->lumped_mass();
 }
 
 Status VerletMotion::step(double t, double h) {
@@ -97,7 +98,7 @@ Status VerletMotion::step(double t, double h) {
   v = (half_ + 0.5 * h * a) / (1.0 + 0.5 * damping * h);
   a -= damping * v;
   nodal.drive(t + h, h, u, v, a);
-  return Status::ok;
+  return nodal.torn() ? Status::diverged : Status::ok;
 }
 
 LumpedVerletMotion::LumpedVerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,

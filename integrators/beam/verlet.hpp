@@ -13,18 +13,22 @@ enum class Mass { lumped, consistent };
 /// Swansea report CR/132/70, 1970).
 double stable_step(const NodalBeam& beam, const double* u, Mass mass);
 
+/// Why steps of size h are likely to fail at the motion as it is, for a scheme that is stable up to
+/// reach/omega; empty if they are not.
+std::string stability_caution(const NodalMotion& motion, Mass mass, double reach, double h);
+
 class VerletMotion {
  public:
   VerletMotion(std::unique_ptr<NodalBeam> beam, Eigen::VectorXd u, Eigen::VectorXd v,
                const SchemeOptions& options, Mass mass);
   Status step(double t, double h);
-  std::string caution(double h) const;
+  std::string caution(double h) const { return stability_caution(nodal, mass_, 2.0, h); }
 
   NodalMotion nodal;
 
  private:
   Eigen::VectorXd half_;  ///< v in the middle of the step
-  double stable_;         ///< at the start, s
+  Mass mass_;
 };
 
 struct LumpedVerletMotion : VerletMotion {
@@ -36,8 +40,9 @@ struct ConsistentVerletMotion : VerletMotion {
                          const SchemeOptions& options);
 };
 
+/// A scheme that is stable for small steps only.
 template <class Motion>
-struct VerletScheme : NodalScheme<Motion> {
+struct ExplicitScheme : NodalScheme<Motion> {
   template <BeamForm M>
   static std::string caution(const M&, const Motion& state, double h) {
     return state.caution(h);
@@ -46,7 +51,7 @@ struct VerletScheme : NodalScheme<Motion> {
 
 /// Its solution differs from that of the mesh, whose mass is consistent, by what lumping makes: no order is
 /// declared.
-struct BeamVerlet : VerletScheme<LumpedVerletMotion> {
+struct BeamVerlet : ExplicitScheme<LumpedVerletMotion> {
   static constexpr SchemeInfo info{
       .name = "beam-verlet",
       .family = "beam",
@@ -60,7 +65,7 @@ struct BeamVerlet : VerletScheme<LumpedVerletMotion> {
   };
 };
 
-struct BeamVerletConsistent : VerletScheme<ConsistentVerletMotion> {
+struct BeamVerletConsistent : ExplicitScheme<ConsistentVerletMotion> {
   static constexpr SchemeInfo info{
       .name = "beam-verlet-consistent",
       .family = "beam",

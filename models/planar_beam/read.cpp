@@ -182,13 +182,23 @@ void start_at_rest(StaticSystem& system, const Table& root, Data& data) {
   data.v.assign(data.u.size(), 0.0);
 }
 
+/// A beam of which supports hold everything has no motion to compute.
+template <int p>
+void check_free(const PlanarBeam<p>& beam, const Table& root) {
+  if (beam.free().empty())
+    root.fail("supports", fmt::format("supports that hold all {} unknowns of the beam", beam.unknowns()),
+              "an end that can move, or more elements or a higher order ([beam] elements, order)");
+}
+
 template <int p>
 std::shared_ptr<const AnyModel> make(Data& data, bool at_rest, const Table& root) {
   if (at_rest) {
     const PlanarBeam<p> beam(data);
+    check_free(beam, root);
     start_at_rest(*beam.statics(LoadCase::first), root, data);
   }
   PlanarBeam<p> beam(data);
+  check_free(beam, root);
   check_motion(beam, root);
   return box(std::move(beam));
 }

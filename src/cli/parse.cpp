@@ -54,7 +54,7 @@ constexpr Option every_option[] = {
      &Request::set},
     {'r', "--refine", "KEY=V1,V2,..", "error in space: meshes of the scene, e.g. beam.elements=4,8,16,32",
      &Request::refine},
-    {'k', "--load-steps", "N", "the loads grow by at most a part in N at once (default 10)",
+    {'k', "--load-steps", "N", "the loads change by at most a part in N at once (default 10)",
      &Request::load_steps},
     {'K', "--arc-length", "", "follow the path by its length, past limit points", &Request::arc_length},
     {'v', "--vary", "KEY=V1,V2,..",

@@ -88,6 +88,7 @@ void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vect
     StudyOptions planned = options;
     planned.integrators = plan.integrators;
     planned.steps = plan.steps;
+    planned.explicit_steps = plan.explicit_steps;
     planned.tols = plan.tols;
     planned.time_limit = plan.time_limit;
     planned.timing_budget = plan.timing_budget;

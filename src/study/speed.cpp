@@ -85,6 +85,24 @@ std::vector<std::string> sets_of(const SpeedPlan& plan) {
   return sets;
 }
 
+/// What it costs a step to keep the energy: the schemes differ in that alone. Empty where there are not both.
+std::string repair_costs(const SpeedStudy& study) {
+  std::string text;
+  for (const StepTime& repaired : study.steps) {
+    if (repaired.scheme->name != "beam-energy-momentum") continue;
+    const auto documented = std::ranges::find_if(study.steps, [&](const StepTime& time) {
+      return time.scheme->name == "beam-midpoint" && time.scene == repaired.scene &&
+             time.step == repaired.step && time.parts == repaired.parts &&
+             time.instructions == repaired.instructions;
+    });
+    if (documented == study.steps.end() || !(documented->ns() > 0.0)) continue;
+    text += fmt::format("{}{} at {} {}", text.empty() ? "beam-energy-momentum / beam-midpoint: " : ", ",
+                        output::number(repaired.ns() / documented->ns(), 3), repaired.parts,
+                        repaired.instructions.empty() ? "parts" : "parts, " + repaired.instructions);
+  }
+  return text;
+}
+
 std::string unstable_mark(const TimingStats& stats) { return stats.unstable ? "*" : ""; }
 
 }  // namespace
@@ -203,6 +221,7 @@ output::Table step_times_table(const SpeedStudy& study) {
   }
   table.notes.push_back(
       fmt::format("runs of {}{} steps, interleaved; {}", parts ? "at least " : "", shortest, unstable_note));
+  if (const std::string costs = repair_costs(study); !costs.empty()) table.notes.push_back(costs);
   if (closed_forms)
     table.notes.push_back("a closed form: one evaluation, what is worked out once a body apart");
   return table;

@@ -324,7 +324,10 @@ std::vector<Setting> settings(const SchemeInfo& scheme, const StudyOptions& opti
   std::vector<Setting> list;
   if (scheme.stepping == Stepping::closed_form) return {Setting{}};
   const bool fixed = scheme.stepping == Stepping::fixed;
-  const std::vector<double>& given = fixed ? options.steps : options.tols;
+  const bool is_explicit = scheme.stages > 0 && !options.explicit_steps.empty();
+  const std::vector<double>& given = !fixed        ? options.tols
+                                     : is_explicit ? options.explicit_steps
+                                                   : options.steps;
   for (double value : given.empty() ? (fixed ? steps : tols) : given) {
     Setting setting;
     (fixed ? setting.step : setting.tol) = value;

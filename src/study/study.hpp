@@ -23,7 +23,8 @@ struct StudyOptions {
   std::vector<std::string>
       integrators;            ///< empty: every one that runs on the scene, negative controls left out
   std::vector<double> steps;  ///< s; empty: the default ladder
-  std::vector<double> tols;   ///< empty: the default ladder
+  std::vector<double> explicit_steps;  ///< s, of schemes with a fixed number of stages; empty: `steps`
+  std::vector<double> tols;            ///< empty: the default ladder
   int samples = 0;
   int watch = 256;
   long max_steps = 100'000'000;

@@ -139,10 +139,13 @@ StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
     plan.speed.push_back(std::move(speed));
   });
   each("work", [&](Section& section) {
-    section.only({"scene", "steps", "tols", "integrators", "time_limit", "timing_budget"});
+    section.only({"scene", "steps", "explicit_steps", "tols", "integrators", "time_limit", "timing_budget"});
     WorkPlan work;
     work.scene = section.text("scene", "a scene's name");
     work.steps = section.positives("steps", "positive numbers (s), at least two");
+    if (section.has("explicit_steps"))
+      work.explicit_steps =
+          section.positives("explicit_steps", "positive numbers (s) for explicit schemes, at least two");
     work.tols = section.positives("tols", "tolerances, at least two");
     work.integrators = section.texts("integrators", "names of integrators");
     if (section.has("time_limit")) work.time_limit = section.positive("time_limit", "a positive number (s)");

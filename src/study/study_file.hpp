@@ -30,7 +30,7 @@ struct DriftPlan {
 /// Work and precision on a scene whose runs are too long for the default ladders.
 struct WorkPlan {
   std::string scene;
-  std::vector<double> steps, tols;
+  std::vector<double> steps, explicit_steps, tols;
   std::vector<std::string> integrators;
   double time_limit = 300.0;  ///< s of one run
   /// CPU s of all repetitions; at least one is made.

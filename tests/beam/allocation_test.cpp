@@ -5,6 +5,7 @@
 #include "integrators/beam/energy_momentum_4.hpp"
 #include "integrators/beam/generalized_alpha.hpp"
 #include "integrators/beam/mixed_midpoint.hpp"
+#include "integrators/beam/rk4.hpp"
 #include "integrators/beam/stander_stein.hpp"
 #include "integrators/beam/verlet.hpp"
 #include "tests/planar_beam/beams.hpp"
@@ -42,6 +43,7 @@ TEST_CASE("beam schemes: steps allocate nothing", "[planar_beam][allocation]") {
   check_steps<beam::BeamBathe>(arm, 0.01, 100);
   check_steps<beam::BeamVerlet>(arm, 0.01, 100);
   check_steps<beam::BeamVerletConsistent>(arm, 0.01, 100);
+  check_steps<beam::BeamRk4>(arm, 0.01, 100);
   Data hinged = soft_beam(4);
   hinged.hinges = {{0.25, 0.4}, {0.5}};
   const PlanarBeam<1> linear(hinged);

@@ -5,6 +5,7 @@
 #include "integrators/beam/energy_momentum_4.hpp"
 #include "integrators/beam/generalized_alpha.hpp"
 #include "integrators/beam/mixed_midpoint.hpp"
+#include "integrators/beam/rk4.hpp"
 #include "integrators/beam/stander_stein.hpp"
 #include "integrators/beam/verlet.hpp"
 #include "tests/planar_beam/beams.hpp"
@@ -63,6 +64,7 @@ TEST_CASE("beam schemes: a step back undoes a step as declared", "[planar_beam]"
   check_reversible<beam::BeamBathe>();
   check_reversible<beam::BeamVerlet>();
   check_reversible<beam::BeamVerletConsistent>();
+  check_reversible<beam::BeamRk4>();
 }
 
 TEST_CASE("beam schemes: large steps of the free flight", "[planar_beam]") {

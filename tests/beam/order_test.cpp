@@ -37,7 +37,7 @@ void check_orders(const PlanarBeam<2>& model, double t_end, int steps) {
     }
     ++checked;
   }
-  CHECK(checked == 10);
+  CHECK(checked == 11);
 }
 
 }  // namespace

@@ -96,6 +96,10 @@ TEST_CASE(
        "rhoA, rhoI, start, angle, curvature, gravity, damping, bends, hinges, geometry"},
       {with("length", "0"), "s.toml:5: beam.length: found 0, expected a positive number (m)"},
       {without("length"), "s.toml:4: beam.length: found nothing, expected a positive number (m)"},
+      {with("elements", "1") + "[supports]\nstart = \"clamped\"\nend = \"clamped\"\n",
+       "s.toml:13: supports: found supports that hold all 6 unknowns of the beam, expected an end that can "
+       "move, "
+       "or more elements or a higher order ([beam] elements, order)"},
       {with("elements", "0"), "s.toml:6: beam.elements: found 0, expected a whole number from 1 to 1000000"},
       {with("elements", "2.5"),
        "s.toml:6: beam.elements: found 2.5, expected a whole number from 1 to 1000000"},
