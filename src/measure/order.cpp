@@ -149,8 +149,10 @@ Objection contradiction(LogPoints tail, double order, double tolerance, std::siz
   if (tail.size() < min_points && !std::ranges::all_of(slopes, above)) return {};
   if (shallow(overall) || twice_running(slopes, shallow)) return {};  // the floor
   if (std::abs(overall - order) <= tolerance) return {};
+  // Near roundoff a few errors may do anything, more of them scatter.
   const bool scatters = std::ranges::any_of(slopes, above) && std::ranges::any_of(slopes, below);
-  if (scatters && std::ranges::min(tail, {}, &LogPoint::error).error <= std::log(roundoff)) return {};
+  const bool near = std::ranges::min(tail, {}, &LogPoint::error).error <= std::log(roundoff);
+  if (near && (scatters || tail.size() <= min_points)) return {};
   return {
       fmt::format("order {:.2f} is left for {:.2f} at the smallest steps, which is no floor", order, overall),
       order, last_slope(tail)};

@@ -94,6 +94,11 @@ inline void check_run(const Json& run, std::size_t samples = 0) {
             "message", "t",           "state", "probes",         "invariants", "error",
             "cost",    "cpu_seconds", "flags", "below_bound",    "options"};
   if (samples > 0) keys.insert("series");
+  if (run.contains("own_error_bound")) {
+    keys.insert("own_error_bound");
+    CHECK(run["integrator"].get<std::string>().starts_with("exact-"));
+    for (const Json& bound : run["own_error_bound"]) CHECK(is_number_or_null(bound));
+  }
   if (run.contains("pareto")) {
     keys.insert("pareto");
     CHECK(keys_of(run["pareto"]) == Keys{"cpu_seconds", "rhs"});

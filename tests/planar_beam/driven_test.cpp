@@ -195,7 +195,7 @@ void check_driven_order(const Data& data, int steps) {
       CHECK(std::abs(std::log2(errors[0][k] / errors[1][k]) - *order) <= 0.25);
     }
   }
-  CHECK(checked == 10);
+  CHECK(checked == 11);
 }
 
 }  // namespace

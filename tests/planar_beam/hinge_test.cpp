@@ -320,7 +320,7 @@ TEST_CASE("beam schemes: declared orders with hinges", "[planar_beam]") {
       return model.distance(last_state(scheme.name, model, spec), exact);
     };
     const auto order = scheme.order_for("dead");
-    const int steps = order && *order > 2.0 ? 320 : 1280;
+    const int steps = order && *order > 2.0 && scheme.name != "beam-rk4" ? 320 : 1280;
     const auto coarse = errors(steps), fine = errors(2 * steps);
     for (std::size_t k = 0; k < 4; ++k) {
       INFO(scheme.name << ", " << model.metrics[k].name << ": " << coarse[k] << " " << fine[k]);

@@ -120,7 +120,7 @@ std::vector<double> steps_for(const Scene& scene, const SchemeInfo& scheme, doub
     else
       ladder = order > 5.0 ? Ladder{0.55, 0.25, 20} : Ladder{0.1, 0.25, 14};
   } else if (scheme.name == "cf4" || scheme.name == "rk4-quaternion") {
-    ladder = {0.01, 0.5, 9};  // the terms of order 5 are large
+    ladder = {0.014, 0.3, 11};  // the terms of order 5 are large
   } else {
     // A scheme of order 1 needs smaller steps before its second term is gone; one of order 4 would meet
     // rounding there.

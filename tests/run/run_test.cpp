@@ -200,7 +200,7 @@ TEST_CASE("run: a step that says why it failed", "[run]") {
   check_last_good_state<LineScheme<Fail<1, Status::newton_failed>>>(1, Status::newton_failed, "Newton");
   check_last_good_state<LineScheme<Fail<64, Status::newton_failed>>>(64, Status::newton_failed, "Newton");
   check_last_good_state<LineScheme<Fail<500, Status::newton_failed>>>(500, Status::newton_failed, "Newton");
-  check_last_good_state<LineScheme<Fail<1500, Status::diverged>>>(1500, Status::diverged, "finite");
+  check_last_good_state<LineScheme<Fail<1500, Status::diverged>>>(1500, Status::diverged, "beyond any scale");
 }
 
 TEST_CASE("run: samples", "[run]") {

@@ -64,10 +64,10 @@ TEST_CASE("study file: what it says is read", "[study]") {
   CHECK(plan.vary[0].tols == std::vector<double>{1e-10});
   CHECK(plan.vary[0].full_only);
   CHECK(!plan.vary[0].stability);
-  REQUIRE(beams.work.size() == 1);
-  CHECK(beams.work[0].scene == "spin-up-short");
-  CHECK(beams.work[0].tols.front() == 1e-3);
-  CHECK(beams.work[0].timing_budget < 1e3);
+  REQUIRE(beams.work.size() == 2);
+  CHECK(beams.work[1].scene == "spin-up-short");
+  CHECK(beams.work[1].tols.front() == 1e-3);
+  CHECK(beams.work[1].timing_budget < 1e3);
   REQUIRE(beams.vary.size() == 1);
   CHECK(beams.vary[0].variation.key == "beam.EA,beam.GA");
   CHECK(beams.vary[0].variation.numbers().value().back() == 1e10);
