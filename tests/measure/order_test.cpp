@@ -258,8 +258,13 @@ TEST_CASE("measure: an order that changes inside the ladder is not reported") {
   CHECK(settled.points == 13);
 
   // Leaving the order slowly, without reaching a floor, is no asymptotic range either.
-  const auto leaving = falling(1e-2, {6.0, 6.0, 6.0, 6.0, 5.2, 4.6, 4.2});
+  const auto leaving = falling(1e-2, {3.0, 3.0, 3.0, 3.0, 2.6, 2.3, 2.1});
   CHECK(refused(observe_order(from_errors(leaving), with_scale_one())));
+  // Near roundoff as few errors say nothing.
+  const auto near_roundoff = falling(1e-2, {6.0, 6.0, 6.0, 6.0, 6.0, 5.2, 4.6, 4.2});
+  const ObservedOrder sixth = observe_order(from_errors(near_roundoff), with_scale_one());
+  REQUIRE(sixth.observed);
+  CHECK(std::abs(*sixth.observed - 6.0) <= 0.05);
 }
 
 TEST_CASE("measure: a floor or irregular points beyond the window do not spoil it") {
