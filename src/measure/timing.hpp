@@ -54,9 +54,9 @@ struct TimingPlan {
 /// speed meets all alike. The first calls of each are discarded (one, more if it is too short to be timed)
 /// and set how many make a batch; up to a fifth more are added at random so that batches do not lock to a
 /// periodic disturbance. After the first round, which always runs, what is
-/// left of the budget goes to the shortest that it can finish; others go on while one repetition fits. A task
-/// that fails is not called again. `stop`, if set, is asked before every call; when it says true, what is
-/// finished is returned.
+/// left of the budget, a tenth of it at least, goes to the shortest that it can finish; others go on while
+/// one repetition fits. A task that fails is not called again. `stop`, if set, is asked before every call;
+/// when it says true, what is finished is returned.
 std::vector<TimingStats> measure_interleaved(const std::vector<TimedTask>& tasks, const TimingPlan& plan,
                                              const std::function<bool()>& stop);
 

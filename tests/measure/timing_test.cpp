@@ -164,6 +164,12 @@ TEST_CASE("measure: of a budget too small for all, the short runs get their repe
   CHECK(stage.now <= plan.budget_seconds);
   CHECK(stats[0].unstable);
   CHECK_FALSE(stats[1].unstable);
+
+  // One that takes the whole budget at once leaves the others a tenth of it.
+  plan.budget_seconds = 100.0;
+  const auto late = measure_interleaved({stage.task('a', 1000.0), stage.task('b', 1.0)}, plan, nullptr);
+  CHECK(late[0].repetitions == 1);
+  CHECK(late[1].repetitions == 5);
 }
 
 TEST_CASE("measure: stopping keeps the finished repetitions and discards the begun one") {

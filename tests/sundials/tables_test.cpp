@@ -12,6 +12,7 @@
 #include <memory>
 #include <regex>
 
+#include "integrators/sundials/compat.hpp"
 #include "integrators/sundials/tables.hpp"
 #include "tests/catch.hpp"
 #include "tests/sundials/systems.hpp"
@@ -111,25 +112,26 @@ struct Stepped {
 };
 Stepped by_erkstep(ARKodeButcherTable table, int steps, const std::vector<Real>& exact) {
   SUNContext context = nullptr;
-#if SUNDIALS_VERSION_MAJOR >= 7
-  SUNContext_Create(SUN_COMM_NULL, &context);
-#else
-  SUNContext_Create(nullptr, &context);
-#endif
+  gnomon::sundials::Messages messages;
+  REQUIRE(gnomon::sundials::create_context(&context, &messages) == 0);
   N_Vector y = N_VNew_Serial(4, context);
   sunrealtype* at = N_VGetArrayPointer(y);
   at[0] = 1.0, at[1] = at[2] = 0.0, at[3] = std::sqrt(1.3);
   void* memory = ERKStepCreate(orbit_rates, 0.0, y, context);
   Stepped result{0.0, 0};
-  ERKStepSetUserData(memory, &result.calls);
+  gnomon::sundials::arkode_set_user_data(true)(memory, &result.calls);
   REQUIRE(ERKStepSetTable(memory, table) == 0);
+#if SUNDIALS_VERSION_MAJOR >= 7
+  ARKodeSetFixedStep(memory, 2.0 / steps);
+#else
   ERKStepSetFixedStep(memory, 2.0 / steps);
-  ERKStepSetStopTime(memory, 2.0);
+#endif
+  gnomon::sundials::arkode_set_stop_time(true)(memory, 2.0);
   sunrealtype t = 0.0;
-  REQUIRE(ERKStepEvolve(memory, 2.0, y, &t, ARK_NORMAL) >= 0);
+  REQUIRE(gnomon::sundials::arkode_evolve(true)(memory, 2.0, y, &t, ARK_NORMAL) >= 0);
   for (int c = 0; c < 4; ++c)
     result.error = std::max(result.error, std::abs(static_cast<double>(at[c] - exact[c])));
-  ERKStepFree(&memory);
+  gnomon::sundials::arkode_free(true)(&memory);
   N_VDestroy(y);
   SUNContext_Free(&context);
   return result;
