@@ -210,10 +210,10 @@ class Stepper {
 
   /// Newton's iteration with line search: a step is taken if it makes the residual or the correction that
   /// would follow with the same tangent smaller (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004,
-  /// natural monotonicity test (3.22)). In stiff beams the stretch of second order that bending gives makes
-  /// the residual larger on the way to the solution. The tangent is kept while it reduces the residual by a
-  /// hundred, in the modified iteration by five. At least one correction is made: loads below the roundoff
-  /// of the stiff directions move the soft ones.
+  /// natural monotonicity test of chapter 3). In stiff beams the stretch of second order that bending gives
+  /// makes the residual larger on the way to the solution. The tangent is kept while it reduces the residual
+  /// by a hundred, in the modified iteration by five. At least one correction is made: loads below the
+  /// roundoff of the stiff directions move the soft ones.
   bool solve(const M& model, double h);
   /// Whether the correction that the residual at hand asks for, with the tangent that was factorised last, is
   /// smaller than the last one by `factor`.
