@@ -65,10 +65,9 @@ std::string survival_line(const Survival& survival) {
   return fmt::format(
       "a step survives if the run, of {:g} steps or more, ends well, every state finite, and no invariant is "
       "off by more than {:g} of its scale at 256 jittered times; where no energy is constant, also no error "
-      "at "
-      "the end of the scene above {:g} of that of a result that is wrong altogether; where one is, the path "
-      "is "
-      "not looked at",
+      "at the end of the scene above {:g} of that of a result that is wrong altogether; where one is, the "
+      "path "
+      "is not looked at",
       fewest_steps, survival.max_drift, survival.max_error);
 }
 

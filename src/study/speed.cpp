@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/instruction_set.hpp"
-
 namespace gnomon {
 namespace {
 
@@ -77,14 +75,6 @@ void measure_parts(Runner& runner, const std::vector<Scene>& scenes, const Timin
   for (std::size_t k = 0; k < parts.size(); ++k) parts[k].run = stats[k];
 }
 
-/// The sets of instructions that a plan is about and this machine has.
-std::vector<std::string> sets_of(const SpeedPlan& plan) {
-  std::vector<std::string> sets;
-  if (plan.scalar) sets.emplace_back("scalar");
-  for (const InstructionSet set : instruction_sets()) sets.emplace_back(to_string(set));
-  return sets;
-}
-
 /// What it costs a step to keep the energy: the schemes differ in that alone. Empty where there are not both.
 std::string repair_costs(const SpeedStudy& study) {
   std::string text;
@@ -153,7 +143,7 @@ SpeedStudy measure_speed(Runner& runner, const std::vector<SpeedPlan>& plans,
     if (plan.instructions_key.empty()) {
       add(plan, "");
     } else {
-      for (const std::string& name : sets_of(plan)) add(plan, name);
+      for (const std::string& name : plan.instructions()) add(plan, name);
     }
   }
   TimingPlan plan;

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "src/error.hpp"
-#include "src/instruction_set.hpp"
 #include "src/nearest.hpp"
 #include "src/study/study.hpp"
 
@@ -98,10 +97,7 @@ void StudyCheck::speed(const Section& section, const SpeedPlan& plan) const {
   changes.set = plan.set;
   integrators(section, plan.integrators, load(section, "scene", plan.scene, changes));
   if (plan.instructions_key.empty()) return;
-  std::vector<std::string> sets;
-  if (plan.scalar) sets.emplace_back("scalar");
-  for (const InstructionSet set : instruction_sets()) sets.emplace_back(to_string(set));
-  for (const std::string& name : sets) {
+  for (const std::string& name : plan.instructions()) {
     const std::string chosen = fmt::format("{}=\"{}\"", plan.instructions_key, name);
     try {
       load_scene(*catalogue_, plan.scene, {{}, {chosen}});

@@ -5,10 +5,18 @@
 #include <algorithm>
 
 #include "src/error.hpp"
+#include "src/instruction_set.hpp"
 #include "src/scene_reader.hpp"
 #include "src/study/study_check.hpp"
 
 namespace gnomon {
+
+std::vector<std::string> SpeedPlan::instructions() const {
+  std::vector<std::string> names;
+  if (scalar) names.emplace_back("scalar");
+  for (const InstructionSet each : instruction_sets()) names.emplace_back(to_string(each));
+  return names;
+}
 
 std::string SurveyPlan::key() const {
   std::string key = label;

@@ -49,6 +49,9 @@ struct SpeedPlan {
   bool scalar = false;                     ///< that key knows "scalar", too: none of them
   std::vector<std::string> integrators{};  ///< empty: those of the study
   bool full_only = false;                  ///< left out of a quick study
+
+  /// The sets of instructions that it is about and this machine has, by name.
+  std::vector<std::string> instructions() const;
 };
 
 /// One class of scenes in the survey of a model.
