@@ -20,20 +20,20 @@ struct Scheme {
   double microseconds_per_evaluation;
 };
 
-constexpr std::array<Scheme, 11> schemes = {{{"munjiza", 1, 3e-1, 1, 0.07},
-                                             {"munjiza-half-impulse", 2, 2e-1, 1, 0.07},
-                                             {"munjiza-stage-moments", 4, 3e-1, 4, 0.16},
-                                             {"rkmk4", 4, 5e-2, 4, 0.20},
-                                             {"cvode-adams", 5, 2.0, 1.6, 0.75},
-                                             {"cvode-bdf", 4, 8.0, 2.1, 1.0},
-                                             {"arkode-erk4", 4, 0.5, 6, 0.40},
-                                             {"arkode-erk5", 5, 0.8, 7, 0.55},
-                                             {"arkode-erk8", 8, 4.0, 13, 1.0},
-                                             {"arkode-dirk", 4, 1.0, 15, 2.4},
-                                             {"ida-bdf", 4, 15.0, 2.4, 1.8}}};
+constexpr std::array<Scheme, 11> sample_schemes = {{{"munjiza", 1, 3e-1, 1, 0.07},
+                                                    {"munjiza-half-impulse", 2, 2e-1, 1, 0.07},
+                                                    {"munjiza-stage-moments", 4, 3e-1, 4, 0.16},
+                                                    {"rkmk4", 4, 5e-2, 4, 0.20},
+                                                    {"cvode-adams", 5, 2.0, 1.6, 0.75},
+                                                    {"cvode-bdf", 4, 8.0, 2.1, 1.0},
+                                                    {"arkode-erk4", 4, 0.5, 6, 0.40},
+                                                    {"arkode-erk5", 5, 0.8, 7, 0.55},
+                                                    {"arkode-erk8", 8, 4.0, 13, 1.0},
+                                                    {"arkode-dirk", 4, 1.0, 15, 2.4},
+                                                    {"ida-bdf", 4, 15.0, 2.4, 1.8}}};
 
 Series errors(int number, bool against_evaluations) {
-  const Scheme& scheme = schemes[static_cast<std::size_t>(number)];
+  const Scheme& scheme = sample_schemes[static_cast<std::size_t>(number)];
   std::mt19937 generator(static_cast<unsigned>(number));
   Series series;
   series.label = scheme.name;
@@ -59,7 +59,7 @@ Panel error_panel(bool against_evaluations) {
   panel.x_label = against_evaluations ? "evaluations of the right-hand side" : "CPU time [µs]";
   panel.y_label = "orientation error at t = 10 s [rad]";
   panel.reference_lines = {{bound, "reference’s error bound"}};
-  for (int number = 0; number < static_cast<int>(schemes.size()); ++number) {
+  for (int number = 0; number < static_cast<int>(sample_schemes.size()); ++number) {
     panel.series.push_back(errors(number, against_evaluations));
   }
   return panel;
@@ -94,7 +94,7 @@ Figure convergence() {
   panel.reference_lines = {{2e-13, "reference’s error bound"}};
   panel.guides = {{1.0, "order 1"}, {2.0, "order 2"}, {4.0, "order 4"}};
   for (int number = 0; number < 4; ++number) {
-    const Scheme& scheme = schemes[static_cast<std::size_t>(number)];
+    const Scheme& scheme = sample_schemes[static_cast<std::size_t>(number)];
     Series series = {scheme.name, {}, {}, {}, number};
     for (int k = 0; k < 12; ++k) {
       const double h = 0.1 * std::pow(2.0, -0.75 * k);
@@ -120,7 +120,7 @@ Figure drift() {
   const double slope[] = {1e-4, 0.0, 0.0, 0.0, 3e-8, 1e-8, 1e-11};
   for (int number = 0; number < 7; ++number) {
     std::mt19937 generator(static_cast<unsigned>(number));
-    Series series = {schemes[static_cast<std::size_t>(number)].name, {}, {}, {}, number};
+    Series series = {sample_schemes[static_cast<std::size_t>(number)].name, {}, {}, {}, number};
     for (int k = 0; k < 200; ++k) {
       const double t = 0.1 * std::pow(10.0, 5.0 * k / 199.0);
       const double noise = 0.3 + 0.7 * static_cast<double>(generator()) / 4294967296.0;

@@ -221,14 +221,15 @@ TEST_CASE("planar beam: elimination with hinges against dense matrices", "[plana
 TEST_CASE("planar beam: a hinge's spring does the work of its energy", "[planar_beam]") {
   const double k = 3.0, angle = 0.4, h = 0.2;
   // Slow and fast, alike, opposite, and so fast that the Cayley map turns by almost a whole turn.
-  for (const auto& [left, right] : {std::pair{0.3, -0.2},
-                                    {2.0, 2.0},
-                                    {2.0, 2.0 + 1e-7},
-                                    {-40.0, 35.0},
-                                    {11.0, -11.0},
-                                    {1e-9, 0.0},
-                                    {5.0, 500.0}})
+  for (const std::pair<double, double>& rates : {std::pair{0.3, -0.2},
+                                                 {2.0, 2.0},
+                                                 {2.0, 2.0 + 1e-7},
+                                                 {-40.0, 35.0},
+                                                 {11.0, -11.0},
+                                                 {1e-9, 0.0},
+                                                 {5.0, 500.0}})
     for (bool cayley : {false, true}) {
+      const double left = rates.first, right = rates.second;
       const auto m = beam::hinge_moment(cayley, k, angle, left, right, h);
       const auto turn = [&](double rate) { return cayley ? 2.0 * std::atan(0.5 * h * rate) : h * rate; };
       const double after = angle + turn(right) - turn(left);
