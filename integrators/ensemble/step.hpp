@@ -2,6 +2,13 @@
 // The schemes of integrators/rotation/munjiza.hpp on many bodies at once, one a lane. Compiled once for each
 // instruction set, see lanes.hpp.
 
+// A step needs many more numbers than there are registers. With its instructions put in order before
+// registers are given out, fewer go to memory and back: rkmk4 under gravity takes a tenth less time. Ahead of
+// all other headers, so that nothing that is inlined is compiled otherwise.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("schedule-insns", "sched-pressure")
+#endif
+
 #include "integrators/ensemble/kernels.hpp"
 #include "integrators/ensemble/rotation.hpp"
 

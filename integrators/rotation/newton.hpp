@@ -18,11 +18,16 @@ inline Matrix3 cross_matrix(const Vector3& v) {
   return V;
 }
 
-/// D to the second order in x, where the turn by x + dx is that by x followed by that by D dx, all in one
-/// frame: good enough for Newton's matrix.
+/// D where the turn by x + dx is that by x followed by that by D dx, all in one frame:
+///     1 + (1 - cos|x|)/|x|^2 hat(x) + (|x| - sin|x|)/|x|^3 hat(x)^2.
+/// Exact to rounding, because Newton's method multiplies its errors by the ratio of the moments of inertia.
 inline Matrix3 left_derivative(const Vector3& x) {
+  const double square = x.squaredNorm();
+  const auto [sine, versine] = sinc(square);
+  // The rounding of 1 - sine is multiplied by x^2.
+  const double cubic = square > 0.0 ? (1.0 - sine) / square : 1.0 / 6.0;
   const Matrix3 X = cross_matrix(x);
-  return Matrix3::Identity() + 0.5 * X + X * X / 6.0;
+  return Matrix3::Identity() + versine * X + cubic * (X * X);
 }
 
 /// Tells when the corrections of an iteration have come down to rounding.

@@ -6,8 +6,8 @@ namespace gnomon::rotation {
 
 /// ALGO-C1 of Simo and Wong: the turn by th = (h/2)(w + w'), body components, and H' = H + h M at the middle
 /// of that turn, so that I w' = exp(-th) A^T H'. Because exp(th) leaves th as it is, a free body keeps its
-/// energy: (m' - m).(w + w') = 0. Solved for th by Newton's method to rounding, without the derivative of the
-/// moment.
+/// energy: (m' - m).(w + w') = 0. Solved for th by Newton's method to rounding, quadratically convergent on a
+/// free body; the derivative of the moment is left out.
 struct SimoWongC1 {
   static constexpr SchemeInfo info{
       .name = "simo-wong-c1",
@@ -44,6 +44,14 @@ struct SimoWongC1 {
     return cost;
   }
 
+  /// Derivative by th of I th - (h/2) (m + v), where v = exp(-th) A^T H' and H' is held; body components.
+  static Matrix3 tangent(const Vector3& inertia, const Vector3& angle, const Vector3& v, double h) {
+    // d v = v x (D d angle), D of -angle
+    Matrix3 derivative = -0.5 * h * (cross_matrix(v) * left_derivative(-angle));
+    derivative.diagonal() += inertia;
+    return derivative;
+  }
+
   template <RotationForm M>
   [[gnu::noinline]] static Status step(const M& model, PoseAndCount& state, double t, double h) {
     Pose& pose = state.pose;
@@ -57,10 +65,7 @@ struct SimoWongC1 {
                 h * Vector3(model.moment(t + 0.5 * h, pose.attitude * Rotation(0.5 * angle).matrix()));
       const Vector3 v = Rotation(angle).inverse(pose.attitude.transpose() * after);
       const Vector3 residual = inertia.cwiseProduct(angle) - 0.5 * h * (m + v);
-      // d v = v x (D d angle), D of -angle
-      Matrix3 derivative = -0.5 * h * (cross_matrix(v) * left_derivative(-angle));
-      derivative.diagonal() += inertia;
-      const Vector3 change = solve(derivative, residual);
+      const Vector3 change = solve(tangent(inertia, angle, v, h), residual);
       angle -= change;
       const auto verdict = corrections.add(change.cwiseAbs().maxCoeff(), angle.cwiseAbs().maxCoeff());
       if (verdict == Corrections::Verdict::failed || !angle.allFinite()) return Status::newton_failed;

@@ -113,7 +113,7 @@ void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vect
   }
   if (!study.survey.empty())
     parts.push_back(
-        {model + "-survey", "All schemes of equal steps",
+        {model + "-survey", "All schemes",
          survey_runs(context_.catalogue, study.survey, session_.quick),
          [=, this](output::Progress& progress) { return make_survey(model, study, options, progress); }});
   if (!options.timing) return;
@@ -279,9 +279,9 @@ bool PartMaker::make_survey(const std::string& model, const StudyPlan& plan, con
   Document document = new_document();
   document.json()["survey"] = survey_json(study);
   files_.publish({model + "-survey",
-                  "All schemes of equal steps: " + model,
+                  "All schemes: " + model,
                   command("survey " + model, options),
-                  {survey_cost_table(study), survey_stability_table(study)},
+                  survey_tables(study),
                   {},
                   {}},
                  document);

@@ -46,7 +46,7 @@ int survey(Context& context) {
     const Survey study = gnomon::survey(runner, each.model, each.plans, options, progress);
     stopped = stopped || study.interrupted;
     if (study.classes.empty()) break;
-    const std::vector<output::Table> tables{survey_cost_table(study), survey_stability_table(study)};
+    const std::vector<output::Table> tables = survey_tables(study);
     document.json()["survey"][each.model] = survey_json(study);
     for (const output::Table& table : tables) show(request, table);
     if (!request.out.empty()) {

@@ -114,6 +114,7 @@ void StudyCheck::survey(const Section& section, const SurveyPlan& plan) const {
   SceneChanges changes;
   changes.t_end = plan.t_end;
   load(section, "scene", plan.scene, changes);
+  if (!plan.closed_form_scene.empty()) load(section, "closed_form_scene", plan.closed_form_scene, changes);
 }
 
 void StudyCheck::peers(const Section& section, const PeerPlan& plan) const {

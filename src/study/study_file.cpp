@@ -163,11 +163,12 @@ StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
     plan.work.push_back(std::move(work));
   });
   each("survey", [&](Section& section) {
-    section.only({"label", "scene", "step", "t_end"});
+    section.only({"label", "scene", "step", "t_end", "closed_form_scene"});
     plan.survey.push_back({section.text("label", "a name for the class of scenes"),
                            section.text("scene", "a scene's name"),
                            section.positive("step", "a positive number (s)"),
-                           section.positive("t_end", "a positive number (s)")});
+                           section.positive("t_end", "a positive number (s)"),
+                           section.text_or("closed_form_scene", "", "a scene's name")});
     check.survey(section, plan.survey.back());
   });
   each("peers", [&](Section& section) {

@@ -60,6 +60,8 @@ struct SurveyPlan {
   std::string scene;
   double step;   ///< s, of the long run and of the timed one
   double t_end;  ///< s, of the long run
+  /// A scene of the class on which closed forms run that do not on the first; may be empty.
+  std::string closed_form_scene{};
   /// The label as a name.
   std::string key() const;
 };

@@ -154,7 +154,8 @@ std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan
     StudyOptions options;
     options.quick = quick;
     options.integrators = surveyed(catalogue, scene);
-    runs += converge_runs(catalogue, scene, options) + 2 * options.integrators.size();
+    runs += converge_runs(catalogue, scene, options) + 2 * options.integrators.size() +
+            survey_solver_runs(catalogue, plan);
   }
   return runs;
 }
@@ -175,11 +176,15 @@ Survey survey(Runner& runner, const std::string& model, const std::vector<Survey
     add_drift(runner, of, options, progress);
     add_breakings(runner, of, progress);
     if (runner.stopped()) break;
+    SolverClass solvers = survey_solvers(runner, of.plan, options, progress);
+    if (runner.stopped()) break;
+    study.solvers.push_back(std::move(solvers));
     study.classes.push_back(std::move(of));
   }
   if (options.timing && !runner.stopped()) {
     progress.begin("times of a step, interleaved");
     add_times(runner, study.classes, options.quick);
+    if (!runner.stopped()) time_solvers(runner, study.solvers, options);
   }
   study.interrupted = runner.stopped();
   return study;
@@ -275,6 +280,12 @@ output::Table survey_stability_table(const Survey& survey) {
   return table;
 }
 
+std::vector<output::Table> survey_tables(const Survey& survey) {
+  return {survey_cost_table(survey), survey_stability_table(survey),
+          solver_cost_table(survey.model, survey.solvers),
+          solver_stability_table(survey.model, survey.solvers)};
+}
+
 nlohmann::ordered_json survey_json(const Survey& survey) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   const auto number = [](double value) -> nlohmann::ordered_json {
@@ -286,6 +297,7 @@ nlohmann::ordered_json survey_json(const Survey& survey) {
       item["integrator"] = entry.scheme->name;
       item["class"] = of.plan.label;
       item["scene"] = of.plan.scene;
+      item["stepping"] = to_string(entry.scheme->stepping);
       item["observed_order"] = number(entry.order.observed.value_or(std::nan("")));
       item["declared_order"] = number(entry.declared.value_or(std::nan("")));
       item["order_finding"] = to_string(entry.order.finding);
@@ -306,6 +318,7 @@ nlohmann::ordered_json survey_json(const Survey& survey) {
                               : nullptr;
       list.push_back(std::move(item));
     }
+  add_solvers(survey.solvers, list);
   return list;
 }
 

@@ -11,6 +11,7 @@
 #include "src/study/json.hpp"
 #include "src/study/study.hpp"
 #include "src/study/study_file.hpp"
+#include "src/study/survey_solvers.hpp"
 
 namespace gnomon {
 
@@ -37,11 +38,12 @@ struct SurveyClass {
 struct Survey {
   std::string model;
   std::vector<SurveyClass> classes;
+  std::vector<SolverClass> solvers;  ///< the same classes
   bool interrupted = false;
 };
 
 /// Every scheme of equal steps on one scene of each class: order, cost, invariants, drift of the energy, and
-/// the step at which it is off by 1 %.
+/// the step at which it is off by 1 %; beside them those that choose their steps and the closed forms.
 Survey survey(Runner& runner, const std::string& model, const std::vector<SurveyPlan>& plans,
               const StudyOptions& options, output::Progress& progress);
 
@@ -52,6 +54,8 @@ std::size_t survey_runs(const Catalogue& catalogue, const std::vector<SurveyPlan
 output::Table survey_cost_table(const Survey& survey);
 /// Invariants held, energy and the first step that is off by 1 %.
 output::Table survey_stability_table(const Survey& survey);
+/// These and the tables of the schemes that choose their steps.
+std::vector<output::Table> survey_tables(const Survey& survey);
 nlohmann::ordered_json survey_json(const Survey& survey);
 
 }  // namespace gnomon

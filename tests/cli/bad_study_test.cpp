@@ -58,6 +58,10 @@ TEST_CASE("bench: every part of a study is checked before anything is written", 
       "[[survey]]\nlabel = \"a\"\nscene = \"spacemoment\"\nstep = 1\nt_end = 1\n",
       "3: survey[0].scene: scene 'spacemoment': found no shipped scene of that name, expected "
       "space-moment or a path that ends in .toml");
+  check_study_refused(
+      "[[survey]]\nlabel = \"a\"\nstep = 1\nt_end = 1\n" + scene + "closed_form_scene = \"spacemoment\"\n",
+      "6: survey[0].closed_form_scene: scene 'spacemoment': found no shipped scene of that "
+      "name, expected space-moment or a path that ends in .toml");
   check_study_refused("[[peers]]\nlevels = [1, 2, 3, 4]\ngoals = [1, 1, 1, 1]\n" + scene + names,
                       "5: peers[0].integrators: " + misfit);
   const std::string vary = "[[vary]]\nlabel = \"a\"\n" + scene;

@@ -1,4 +1,4 @@
-// `gnomon survey`: what all schemes of equal steps of a model do.
+// `gnomon survey`: what all schemes of a model do.
 #include "tests/cli/document.hpp"
 
 using namespace gnomon::test;
@@ -39,6 +39,16 @@ TEST_CASE("cli: the survey finds what the schemes are known to do", "[cli][long]
   CHECK(entry("munjiza", "gravity")["off_how"] != "");
   const char* largest = "largest_step_within_1_percent";
   CHECK(entry("munjiza", "gravity")[largest] < entry("rkmk4", "gravity")[largest]);
+  CHECK(entry("munjiza", "gravity")["stepping"] == "fixed step");
+  // Those that choose their steps stand beside them.
+  const Json adams = entry("cvode-adams", "gravity");
+  CHECK(adams["stepping"] == "adaptive");
+  CHECK(adams["tol"] == 1e-8);
+  CHECK(adams["error"] <= 1e-5);
+  CHECK(adams["steps"] > 100);
+  CHECK(adams["ns_a_step"].is_null());
+  CHECK(entry("exact-heavy-symmetric-top", "gravity")["scene"] == "heavy-symmetric-top");
+  CHECK(entry("ida-bdf-index3", "gravity")["status"] == "solver_failed");
 }
 
 TEST_CASE("cli: only models that have a survey are surveyed", "[cli]") {

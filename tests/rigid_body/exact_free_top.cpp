@@ -220,6 +220,8 @@ TEST_CASE("exact free top: on the separatrix", "[rigid_body]") {
     double rate_over_magnitude;
   };
   for (const auto& [body, ratio] : {Case{{{3, 6, 8}, tilted, {1, 1.5, 2}}, 1.0 / 12},
+                                    // of models/rigid_body/study.toml
+                                    Case{{{4, 5, 9}, tilted, {0.5, 2, 0.375}}, 1.0 / 15},
                                     Case{{{15, 18, 90}, tilted, {2, -1.5, 1}}, 1.0 / 45}}) {
     const Top top = body.exact();
     CHECK(top.complementary_modulus() == 0);
