@@ -82,7 +82,9 @@ TEST_CASE("bench: every part of a study is checked before anything is written", 
       "9: refine[0].components: found 'end y', expected some of start x, start z, start phi, end x, "
       "end z, end phi");
   check_study_refused(refine("elastica", "x", "beam.element=8"),
-                      "10: refine[0].reference: beam.element=8: beam.element: found an unknown key");
+                      "10: refine[0].reference: beam.element=8: beam.element: found an unknown key, expected "
+                      "one of length, elements, order, EA, GA, EI, rhoA, rhoI, start, angle, curvature, "
+                      "gravity, damping, bends, hinges, geometry");
   check_study_refused(refine("flying-beam", "x", "beam.elements=8"),
                       "3: refine[0].scene: found in scene flying-beam a beam that can move freely as a rigid "
                       "body, expected one that is held in place");

@@ -38,10 +38,13 @@ TEST_CASE("static refinement: the tip of the elastica is of order 2 p", "[study]
   for (std::size_t row = 0; row < 4; ++row) {
     INFO("p = " << row + 1 << ": " << study.orders[row].verdict);
     REQUIRE(study.orders[row].observed);
-    CHECK(std::abs(*study.orders[row].observed / (2.0 * static_cast<double>(row + 1)) - 1.0) <= 0.08);
-    CHECK(study.orders[row].finding == OrderFinding::as_declared);
+    // That of order 8 is at roundoff before the slopes have come to rest.
+    const double expected = 2.0 * static_cast<double>(row + 1);
+    CHECK(*study.orders[row].observed >= 0.99 * expected);
+    CHECK(*study.orders[row].observed <= (row < 3 ? 1.01 : 1.08) * expected);
+    if (row < 3) CHECK(study.orders[row].finding == OrderFinding::as_declared);
   }
-  for (const double bound : study.bounds) CHECK(bound <= 1e-13);
+  for (const double bound : study.bounds) CHECK(bound <= 1e-14);
   const output::Table table = static_refine_table(study);
   REQUIRE(table.rows.size() == 5);
   CHECK(table.columns.back().heading == "order");

@@ -32,7 +32,14 @@ TEST_CASE("vary: a scheme that goes to a motion of its own has the cost of the e
   REQUIRE(lumped.size() == 1);
   REQUIRE(consistent.size() == 3);
   const double level = std::stod(lumped[0][1].raw);
-  CHECK(std::abs(level - 0.0135) <= 0.002);
+  double largest = 0.0;
+  for (const Comparison& variant : study.comparisons)
+    for (const Row& row : variant.rows)
+      if (row.scheme->name == "beam-verlet" && row.setting.step == 0.001)
+        largest = std::max(largest, row.error.at(0));
+  CHECK(level >= largest);
+  CHECK(level <= 1.1 * largest);
+  CHECK(std::abs(level - 0.016) <= 1e-9);
   for (const std::size_t column : {3U, 5U}) CHECK_FALSE(lumped[0][column].raw.empty());
   const auto about = [](const std::string& note) { return note.starts_with("beam-verlet ("); };
   CHECK(std::ranges::count_if(table.notes, about) == 1);
