@@ -284,14 +284,14 @@ TEST_CASE("beam schemes: the published digits of Simo's robot arm", "[planar_bea
 TEST_CASE("beam schemes: Simo's robot arm in the limit of small steps and elements", "[planar_beam][long]") {
   // On the mesh of the scene, by an implicit and an explicit method of order 4.
   const ArmTips exact{Eigen::Vector2d(-12.599745, 9.580083), Eigen::Vector2d(-4.808088, 8.206572)};
-  const double from_published[2] = {0.01193, 0.01076};
-  const std::array<ArmTips, 2> found{arm_tips<2>(5, "beam-energy-momentum-4", 0.005),
-                                     arm_tips<2>(5, "beam-rk4", 0.002)};
+  const double from_published[2] = {0.011928, 0.010759};
+  const std::array<ArmTips, 2> found{arm_tips<2>(5, "beam-energy-momentum-4", 0.002),
+                                     arm_tips<2>(5, "beam-rk4", 0.001)};
   for (const ArmTips& tips : found)
     for (int k : {0, 1}) {
       INFO(k << ": " << tips[k].transpose());
-      CHECK((tips[k] - exact[k]).norm() <= 2e-5);
-      CHECK(std::abs((tips[k] - published_tips[k]).norm() - from_published[k]) <= 5e-5);
+      CHECK((tips[k] - exact[k]).norm() <= 3e-5);
+      CHECK(std::abs((tips[k] - published_tips[k]).norm() - from_published[k]) <= 3e-5);
     }
   // On finer meshes. The root's rate jumps, so that they converge slowly; the limit is known to 2e-4.
   const ArmTips limit{Eigen::Vector2d(-12.6005, 9.5806), Eigen::Vector2d(-4.8072, 8.2076)};
