@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "models/planar_beam/nodal_norm.hpp"
+
 namespace gnomon::beam {
 
 NodalMotion::NodalMotion(std::unique_ptr<NodalBeam> nodal, Vector displacements, Vector velocities,
@@ -108,10 +110,7 @@ void NodalMotion::drive(double t, double h, Vector& at_u, Vector& at_v, Vector& 
 }
 
 double NodalMotion::size_of(const Vector& force) const {
-  const double arm = 1.0 / (beam->length() * beam->length());
-  double sum = 0.0;
-  for (int i = 0; i < force.size(); ++i) sum += (i % 3 == 2 ? arm : 1.0) * force[i] * force[i];
-  return std::sqrt(sum);
+  return planar_beam::nodal_norm(force, 1.0 / beam->length());
 }
 
 bool NodalMotion::torn() const {
@@ -154,14 +153,8 @@ bool NodalMotion::solve(const Stage& stage, Vector& start_u, Vector& start_v, co
 bool NodalMotion::leads_on(double factor) {
   next_ = -residual_;
   beam->solve(next_.data());
-  // Rotations count times the length of the beam.
-  const auto square = [&](const Vector& x) {
-    double sum = 0.0;
-    for (int i = 0; i < x.size(); ++i)
-      sum += (i % 3 == 2 ? beam->length() * beam->length() : 1.0) * x[i] * x[i];
-    return sum;
-  };
-  return square(next_) <= factor * factor * square(correction_);
+  const double length = beam->length();
+  return planar_beam::nodal_norm(next_, length) <= factor * planar_beam::nodal_norm(correction_, length);
 }
 
 bool NodalMotion::newton(const Stage& stage, const Vector& start_u, const Vector& start_v,

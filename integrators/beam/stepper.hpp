@@ -218,8 +218,6 @@ class Stepper {
   /// Whether the correction that the residual at hand asks for, with the tangent that was factorised last, is
   /// smaller than the last one by `factor`.
   bool leads_on(double factor);
-  /// Rotations count times the length of the beam.
-  double size_of(const Vector& velocities) const;
 
   /// One more correction by the tangent at hand, unless the residual is far below what is asked or at
   /// roundoff: what is left of it is lost from the invariants in each step.

@@ -4,6 +4,7 @@
 
 #include "integrators/beam/hinge_moment.hpp"
 #include "integrators/beam/stepper.hpp"
+#include "models/planar_beam/nodal_norm.hpp"
 
 namespace gnomon::beam {
 
@@ -284,23 +285,13 @@ bool Stepper<M, turning>::solve(const M& model, double h) {
 }
 
 template <BeamForm M, Turning turning>
-double Stepper<M, turning>::size_of(const Vector& velocities) const {
-  double sum = 0.0;
-  for (int i = 0; i < velocities.size(); ++i) {
-    const double x = i % 3 == 2 ? length_ * velocities[i] : velocities[i];
-    sum += x * x;
-  }
-  return std::sqrt(sum);
-}
-
-template <BeamForm M, Turning turning>
 bool Stepper<M, turning>::leads_on(double factor) {
   next_ = -residual_;
   if (assembled_)
     assembled_->solve(next_.data());
   else
     chain_.solve(next_.data());
-  return size_of(next_) <= factor * size_of(correction_);
+  return planar_beam::nodal_norm(next_, length_) <= factor * planar_beam::nodal_norm(correction_, length_);
 }
 
 template <BeamForm M, Turning turning>

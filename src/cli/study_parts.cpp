@@ -11,6 +11,7 @@
 #include "src/study/published.hpp"
 #include "src/study/scorecard.hpp"
 #include "src/study/speed.hpp"
+#include "src/study/static_refine.hpp"
 #include "src/study/survey.hpp"
 #include "src/study/vary_study.hpp"
 
@@ -111,6 +112,9 @@ void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vect
                      vary_runs(context_.catalogue, plan, options),
                      [=, this](output::Progress& progress) { return make_vary(plan, options, progress); }});
   }
+  for (const StaticRefinePlan& plan : study.refine)
+    parts.push_back({"refine-" + plan.label, "Error in space: " + plan.label, static_refine_runs(plan),
+                     [=, this](output::Progress& progress) { return make_refine(plan, progress); }});
   if (!study.survey.empty())
     parts.push_back(
         {model + "-survey", "All schemes",
@@ -231,6 +235,21 @@ bool PartMaker::make_vary(const VaryPlan& plan, const StudyOptions& options, out
                   {}},
                  document);
   for (const Comparison& each : study.comparisons) files_.counts.add(name, each);
+  return true;
+}
+
+bool PartMaker::make_refine(const StaticRefinePlan& plan, output::Progress& progress) {
+  const StaticRefinement study = refine_static(runner_, plan, progress);
+  if (study.interrupted) return false;
+  Document document = new_document();
+  document.json()["static_refine"] = static_refine_json(study);
+  files_.publish({"refine-" + plan.label,
+                  "Error in space: " + plan.label,
+                  "",
+                  {static_refine_table(study)},
+                  static_refine_figure(study),
+                  {}},
+                 document);
   return true;
 }
 

@@ -36,6 +36,7 @@ class PartMaker {
   bool make_comparison(const Scene& scene, const StudyOptions& options, output::Progress& progress);
   bool make_drift(const DriftPlan& plan, output::Progress& progress);
   bool make_vary(const VaryPlan& plan, const StudyOptions& options, output::Progress& progress);
+  bool make_refine(const StaticRefinePlan& plan, output::Progress& progress);
   bool make_scorecard(const std::string& model, const std::vector<Scene>& scenes,
                       const std::vector<StudyOptions>& options, output::Progress& progress);
   bool make_survey(const std::string& model, const StudyPlan& plan, const StudyOptions& options,

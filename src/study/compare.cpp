@@ -44,16 +44,20 @@ std::optional<double> evaluations_of(const Row& row) {
   return row.evaluations() > 0 ? std::optional(static_cast<double>(row.evaluations())) : std::nullopt;
 }
 
-CostRow cost_of(const Comparison& study, const SchemeInfo& scheme) {
+}  // namespace
+
+CostRow costs_of(const Comparison& study, const SchemeInfo& scheme, const std::vector<double>& levels) {
   const auto seconds = curve_of(study, scheme, seconds_of),
              evaluations = curve_of(study, scheme, evaluations_of);
   CostRow cost{&scheme, {}, {}};
-  for (double level : study.levels) {
+  for (double level : levels) {
     cost.seconds.push_back(level_cost(seconds, level));
     cost.evaluations.push_back(level_cost(evaluations, level));
   }
   return cost;
 }
+
+namespace {
 
 /// Sought at twenty levels a decade.
 std::vector<Cheapest> cheapest_of(const Comparison& study) {
@@ -114,7 +118,7 @@ Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, out
     runner.time(study.scene, study.rows, options);
   }
   study.interrupted = runner.stopped();
-  for (const SchemeInfo* scheme : schemes) study.costs.push_back(cost_of(study, *scheme));
+  for (const SchemeInfo* scheme : schemes) study.costs.push_back(costs_of(study, *scheme, study.levels));
   study.cheapest = cheapest_of(study);
   study.front_in_time =
       front_of(study, [](const Row& row) { return row.timing ? row.timing->median : std::nan(""); });

@@ -32,6 +32,9 @@ struct Comparison : SceneStudy {
 /// Error against cost, a ladder of steps or tolerances for each scheme, timed interleaved.
 Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
 
+/// What errors of other levels cost a scheme.
+CostRow costs_of(const Comparison& study, const SchemeInfo& scheme, const std::vector<double>& levels);
+
 std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options);
 
 }  // namespace gnomon

@@ -7,6 +7,7 @@
 
 #include "src/error.hpp"
 #include "src/nearest.hpp"
+#include "src/study/static_refine.hpp"
 #include "src/study/study.hpp"
 
 namespace gnomon {
@@ -139,6 +140,30 @@ void StudyCheck::vary(const Section& section, const VaryPlan& plan) const {
                                  "\"stability\"",
                                  scheme.name, to_string(scheme.stepping)),
                      k);
+  }
+}
+
+void StudyCheck::refine(const Section& section, const StaticRefinePlan& plan) const {
+  if (!catalogue_) return;
+  const auto check = [&](std::string_view key, auto&& make) {
+    try {
+      return make();
+    } catch (const UsageError& error) {
+      std::string_view why = error.what();
+      if (const std::string_view option = "--set "; why.starts_with(option)) why.remove_prefix(option.size());
+      section.refuse(key, why);
+    }
+  };
+  check("scene", [&] { return load_scene(*catalogue_, plan.scene); });
+  for (std::size_t column = 0; column < plan.columns.values.size(); ++column) {
+    for (std::size_t row = 0; row < plan.rows.values.size(); ++row) {
+      const Scene scene = check("values", [&] { return static_variant(*catalogue_, plan, row, column); });
+      if (const std::string why = static_misfit(plan, scene); !why.empty())
+        section.refuse(why.starts_with("found '") ? "components" : "scene", why);
+    }
+    for (const bool coarser : {false, true})
+      check(coarser ? "coarser" : "reference",
+            [&] { return static_reference(*catalogue_, plan, column, coarser); });
   }
 }
 

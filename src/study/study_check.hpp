@@ -26,6 +26,7 @@ class StudyCheck {
   void survey(const Section& section, const SurveyPlan& plan) const;
   void peers(const Section& section, const PeerPlan& plan) const;
   void vary(const Section& section, const VaryPlan& plan) const;
+  void refine(const Section& section, const StaticRefinePlan& plan) const;
 
  private:
   Scene load(const Section& section, std::string_view key, const std::string& name,

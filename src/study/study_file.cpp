@@ -67,6 +67,53 @@ VaryPlan read_vary(Section& section) {
   return plan;
 }
 
+StaticRefinePlan read_refine(Section& section) {
+  section.only({"label", "scene", "row_key", "row_values", "row_set", "key", "values", "set", "probe",
+                "components", "reference", "coarser", "orders", "meaning"});
+  StaticRefinePlan plan;
+  const char* label = "a name of letters, digits, - and _";
+  plan.label = section.text("label", label);
+  if (!is_label(plan.label)) section.fail("label", section.shown("label"), label);
+  plan.scene = section.text("scene", "a scene's name");
+  const auto variation = [&](Variation& read, const char* key, const char* values) {
+    const char* expected = "values of the key, every one once";
+    read.key = section.text(key, "a key of the scene, as \"beam.order\"");
+    read.values = section.values(values, expected);
+    if (const std::string twice = read.repeated(); !twice.empty())
+      section.fail(values, twice + " twice", expected);
+  };
+  variation(plan.rows, "row_key", "row_values");
+  variation(plan.columns, "key", "values");
+  const std::vector<double> numbers = plan.columns.numbers().value_or(std::vector<double>{0.0});
+  if (std::ranges::any_of(numbers, [](double value) { return value <= 0.0; }))
+    section.fail("values", section.shown("values"), "positive numbers");
+  const auto one_a_row = [&](const char* key, std::size_t count) {
+    if (count != 0 && count != plan.rows.values.size())
+      section.fail(key, section.shown(key), fmt::format("one a row, {} of them", plan.rows.values.size()));
+  };
+  plan.row_set = section.texts("row_set", "texts key.path=value, one a row");
+  one_a_row("row_set", plan.row_set.size());
+  plan.set = section.texts("set", "texts key.path=value");
+  plan.probe = section.text("probe", "the name of a probe");
+  const auto some = [&](const char* key, const char* expected) {
+    std::vector<std::string> list = section.texts(key, expected);
+    if (list.empty()) section.fail(key, section.has(key) ? section.shown(key) : "nothing", expected);
+    return list;
+  };
+  plan.components = some("components", "one or more components of the probe");
+  plan.reference = some("reference", "texts key.path=value that make a fine mesh");
+  plan.coarser = some("coarser", "texts key.path=value that make another fine mesh");
+  if (section.has("orders")) {
+    const char* expected = "positive numbers, one a row";
+    plan.orders = section.list("orders", expected);
+    one_a_row("orders", plan.orders.size());
+    if (plan.orders.empty() || std::ranges::any_of(plan.orders, [](double order) { return order <= 0.0; }))
+      section.fail("orders", section.shown("orders"), expected);
+  }
+  plan.meaning = section.text_or("meaning", "", "a sentence");
+  return plan;
+}
+
 }  // namespace
 
 StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
@@ -184,6 +231,10 @@ StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
   each("vary", [&](Section& section) {
     plan.vary.push_back(read_vary(section));
     check.vary(section, plan.vary.back());
+  });
+  each("refine", [&](Section& section) {
+    plan.refine.push_back(read_refine(section));
+    check.refine(section, plan.refine.back());
   });
   root.finish();
   return plan;

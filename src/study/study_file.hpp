@@ -90,6 +90,21 @@ struct VaryPlan {
   bool full_only = false;  ///< left out of a quick study
 };
 
+/// Equilibria of one scene: the error in space of a place that a probe looks at.
+struct StaticRefinePlan {
+  std::string label;  ///< files are called by it
+  std::string scene;
+  Variation rows, columns;              ///< the columns are meshes, or values on one mesh a row
+  std::vector<std::string> row_set;     ///< one a row, a further change of the scene; empty: none
+  std::vector<std::string> set;         ///< further changes of the scene, key.path=value
+  std::string probe;                    ///< its name
+  std::vector<std::string> components;  ///< of the probe; the error is the length of their differences
+  std::vector<std::string> reference;   ///< what makes the mesh fine that a column is compared with
+  std::vector<std::string> coarser;     ///< another fine mesh: the difference bounds the reference's error
+  std::vector<double> orders;           ///< that are expected, one a row; empty: the columns are no meshes
+  std::string meaning;                  ///< shown below the table
+};
+
 /// What `bench` does with one model, read from its study.toml.
 struct StudyPlan {
   std::vector<std::string> converge, quick_converge, compare, quick_compare;
@@ -101,6 +116,7 @@ struct StudyPlan {
   std::vector<SurveyPlan> survey;
   std::vector<PeerPlan> peers;
   std::vector<VaryPlan> vary;
+  std::vector<StaticRefinePlan> refine;
 };
 
 /// Throws UsageError if the file does not fit; with a catalogue also if its scenes or integrators are not in

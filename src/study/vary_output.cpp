@@ -88,6 +88,54 @@ void note_missing_references(const std::vector<Comparison>& variants, const Vari
 
 }  // namespace
 
+namespace {
+
+/// The levels of varied_costs_table, by their number in Comparison::levels.
+constexpr std::size_t shown_levels[] = {0, 2, 4};
+
+/// Where the errors of a scheme end however small its steps.
+struct Plateau {
+  double level;                               ///< that all of them reach
+  std::vector<std::optional<double>> errors;  ///< one a value of the variation; none where no run ended well
+};
+
+/// Of a scheme of equal steps without a declared order, which goes to a motion of its own: nothing if it
+/// reaches one of the levels, or nowhere stays at an error.
+std::optional<Plateau> plateau_of(const std::vector<Comparison>& variants, const SchemeInfo& scheme) {
+  if (scheme.stepping != Stepping::fixed) return std::nullopt;
+  Plateau plateau{0.0, {}};
+  bool stays = false;
+  for (const Comparison& study : variants) {
+    if (scheme.order_for(study.scene.model->load_class())) return std::nullopt;
+    const auto cost = std::ranges::find(study.costs, &scheme, &CostRow::scheme);
+    if (cost != study.costs.end())
+      for (const std::size_t level : shown_levels)
+        if (cost->evaluations[level]) return std::nullopt;
+    std::optional<double> last, before;
+    for (const Row& row : study.rows)
+      if (row.scheme == &scheme && !row.error.empty()) before = last, last = row.error[0];
+    stays = stays || (before && std::abs(*before - *last) <= 0.05 * *last);
+    plateau.errors.push_back(last);
+    plateau.level = std::max(plateau.level, last.value_or(0.0));
+  }
+  if (!stays) return std::nullopt;
+  const double digit = std::pow(10.0, std::floor(std::log10(plateau.level)) - 1.0);
+  plateau.level = digit * std::ceil(plateau.level / digit);
+  return plateau;
+}
+
+std::string plateau_note(const SchemeInfo& scheme, const Plateau& plateau) {
+  std::string text;
+  for (const auto& error : plateau.errors)
+    text += (text.empty() ? "" : ", ") + (error ? output::number(*error, 3) : output::missing_text);
+  return fmt::format(
+      "{} ({}): its errors against the motion of the mesh end at {}, however small the steps; the costs are "
+      "those of {}",
+      scheme.name, scheme.summary, text, output::number(plateau.level, 2));
+}
+
+}  // namespace
+
 output::Panel varied_panel(const Variation& variation) {
   output::Panel panel;
   const auto axis = variation.axis();
@@ -120,8 +168,21 @@ Table varied_costs_table(const std::vector<Comparison>& variants, const Variatio
     table.columns.push_back({"rhs_at_" + variation.values[of], "(rates)"});
   }
   std::vector<const SchemeInfo*> schemes;
-  for (const SchemeInfo* scheme : varied_schemes(variants))
-    for (const std::size_t level : {0U, 2U, 4U}) {
+  std::vector<std::string> notes;
+  for (const SchemeInfo* scheme : varied_schemes(variants)) {
+    if (const auto plateau = plateau_of(variants, *scheme)) {
+      schemes.push_back(scheme);
+      std::vector<Cell> cells{std::string(scheme->name), output::number_cell(plateau->level, 2)};
+      for (const Comparison& study : variants) {
+        const CostRow cost = costs_of(study, *scheme, {plateau->level});
+        cells.push_back(microseconds_cell(cost.seconds.front()));
+        cells.push_back(evaluations_cell(cost.evaluations.front()));
+      }
+      table.rows.push_back(std::move(cells));
+      notes.push_back(plateau_note(*scheme, *plateau));
+      continue;
+    }
+    for (const std::size_t level : shown_levels) {
       schemes.push_back(scheme);
       std::vector<Cell> cells{std::string(scheme->name),
                               output::number_cell(variants.front().levels[level], 1)};
@@ -133,9 +194,11 @@ Table varied_costs_table(const std::vector<Comparison>& variants, const Variatio
       }
       table.rows.push_back(std::move(cells));
     }
+  }
   name_linear_solver(variants.front(), schemes, table);
   note_missing_references(variants, variation, table);
   table.notes.emplace_back(levels_note);
+  table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   return table;
 }
 

@@ -75,6 +75,23 @@ TEST_CASE("bench: every part of a study is checked before anything is written", 
           "[\"rkmk4\", \"cvode-bdf\"]\n",
       "7: vary[0].integrators: found 'cvode-bdf' (adaptive), expected schemes that take equal "
       "steps, as what = \"stability\"");
+  const auto refine = [](const std::string& of, const std::string& component, const std::string& mesh) {
+    return "[[refine]]\nlabel = \"a\"\nscene = \"" + of +
+           "\"\nrow_key = \"beam.order\"\nrow_values = [1, 2]\nkey = \"beam.elements\"\nvalues = [2, 4]\n"
+           "probe = \"end\"\ncomponents = [\"" +
+           component + "\"]\nreference = [\"" + mesh + "\"]\ncoarser = [\"beam.elements=6\"]\n";
+  };
+  check_study_refused(
+      refine("elastica", "y", "beam.elements=8"),
+      "9: refine[0].components: found 'end y', expected some of start x, start z, start phi, end x, "
+      "end z, end phi");
+  check_study_refused(refine("elastica", "x", "beam.element=8"),
+                      "10: refine[0].reference: beam.element=8: beam.element: found an unknown key, expected "
+                      "one of length, elements, order, EA, GA, EI, rhoA, rhoI, start, angle, curvature, "
+                      "gravity, damping, bends, hinges, geometry");
+  check_study_refused(refine("flying-beam", "x", "beam.elements=8"),
+                      "3: refine[0].scene: found in scene flying-beam a beam that can move freely as a rigid "
+                      "body, expected one that is held in place");
 }
 
 TEST_CASE("bench: a study that is refused leaves an earlier store alone", "[cli]") {

@@ -120,6 +120,23 @@ TEST_CASE("bench: a study of one's own is measured once, and reported from the s
   CHECK_FALSE(says(study.file("runs.jsonl"), store));
 }
 
+TEST_CASE("bench: errors in space of equilibria, and their report from the store alone", "[cli][store]") {
+  const StudyFolder study(
+      "[[refine]]\nlabel = \"tip\"\nscene = \"elastica\"\nrow_key = \"beam.order\"\nrow_values = [1, 2]\n"
+      "key = \"beam.elements\"\nvalues = [4, 8, 16, 32]\nprobe = \"end\"\ncomponents = [\"x\", \"z\"]\n"
+      "reference = [\"beam.order=4\", \"beam.elements=24\"]\ncoarser = [\"beam.order=4\", "
+      "\"beam.elements=16\"]\norders = [2, 4]\n");
+  const Outcome first = study.bench();
+  INFO(first.err);
+  REQUIRE(first.exit_code == 0);
+  const Json document = Json::parse(study.file("refine-tip.json"))["static_refine"];
+  REQUIRE(document["orders"].size() == 2);
+  CHECK(std::abs(document["orders"][0]["observed"].get<double>() - 2.0) <= 0.1);
+  CHECK(document["errors"].size() == 8);
+  check_report(study,
+               {"refine-tip.md", "refine-tip.csv", "refine-tip.json", "refine-tip.tex", "report.html"});
+}
+
 TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][store]") {
   const StudyFolder study(
       "quick_scorecard = [\"asymmetric-free-top\", \"space-moment\"]\n"

@@ -73,6 +73,9 @@ TEST_CASE("study file: what it says is read", "[study]") {
   CHECK(beams.vary[0].variation.numbers().value().back() == 1e10);
   CHECK(beams.vary[0].variation.values.back() == "1e+10");
   CHECK(beams.vary[0].time_limit == 2.0);
+  REQUIRE(beams.refine.size() == 2);
+  CHECK(beams.refine[0].orders == std::vector<double>{2, 4, 6, 8});
+  CHECK(beams.refine[1].row_set.size() == 4);
   REQUIRE(beams.speed.size() >= 3);
   CHECK(beams.speed[0].scalar);
   CHECK(beams.speed[0].integrators.size() == 2);
@@ -126,6 +129,21 @@ TEST_CASE("study file: what does not fit is refused", "[study]") {
         "6: vary[0].steps: found [0.1, 0], expected one or more positive numbers (s)");
   CHECK(refusal(vary + "values = [1]\ntiming_budget = -1\n") ==
         "6: vary[0].timing_budget: found -1, expected a positive number (s)");
+  const std::string refine =
+      "[[refine]]\nlabel = \"a\"\nscene = \"a\"\nrow_key = \"p\"\nrow_values = [1, 2]\nkey = \"n\"\n"
+      "probe = \"end\"\ncomponents = [\"x\"]\nreference = [\"n=9\"]\n";
+  const std::string fine = "coarser = [\"n=8\"]\n", numbers = "values = [2, 4]\n";
+  CHECK(refusal(refine + fine + numbers + "orders = [2, 4]\nrow_set = [\"a=1\", \"a=2\"]\n") == "nothing");
+  CHECK(refusal(refine + numbers) ==
+        "1: refine[0].coarser: found nothing, expected texts key.path=value that make another fine mesh");
+  CHECK(refusal(refine + fine + "values = [2, \"a\"]\n") ==
+        "11: refine[0].values: found [2, \"a\"], expected positive numbers");
+  CHECK(refusal(refine + fine + numbers + "orders = [2]\n") ==
+        "12: refine[0].orders: found [2], expected one a row, 2 of them");
+  CHECK(refusal(refine + fine + numbers + "orders = [2, -4]\n") ==
+        "12: refine[0].orders: found [2, -4], expected positive numbers, one a row");
+  CHECK(refusal(refine + fine + numbers + "row_set = [\"a=1\"]\n") ==
+        "12: refine[0].row_set: found [\"a=1\"], expected one a row, 2 of them");
   CHECK(refusal("[[vary]]\nlabel = \"a/b\"\n") ==
         "2: vary[0].label: found \"a/b\", expected a name of letters, digits, - and _");
 }
