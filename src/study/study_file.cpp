@@ -34,6 +34,17 @@ bool is_label(const std::string& text) {
   });
 }
 
+std::vector<double> read_error_times(Section& section, double t_end) {
+  if (!section.has("error_times")) return {};
+  const std::string expected = fmt::format("different times from above 0 to t_end = {:g} (s)", t_end);
+  std::vector<double> times = section.list("error_times", expected);
+  std::ranges::sort(times);
+  if (times.empty() || times.front() <= 0.0 || times.back() > t_end ||
+      std::ranges::adjacent_find(times) != times.end())
+    section.fail("error_times", section.shown("error_times"), expected);
+  return times;
+}
+
 VaryPlan read_vary(Section& section) {
   section.only({"label", "scene", "key", "values", "what", "t_end", "set", "steps", "tols", "integrators",
                 "time_limit", "timing_budget", "full_only"});
@@ -105,8 +116,8 @@ StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
   plan.integrators = root.texts("integrators", "names of integrators");
   check.shared_integrators(root, plan.integrators);
   each("drift", [&](Section& section) {
-    section.only(
-        {"scene", "t_end", "quick_t_end", "step", "steps", "tol", "integrators", "published", "source"});
+    section.only({"scene", "t_end", "quick_t_end", "step", "steps", "tol", "error_times", "integrators",
+                  "published", "source"});
     DriftPlan drift;
     drift.scene = section.text("scene", "a scene's name");
     drift.t_end = section.positive("t_end", "a positive number (s)");
@@ -118,6 +129,7 @@ StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
     else
       drift.steps = section.positives("steps", "positive numbers (s), at least two");
     if (section.has("tol")) drift.tol = section.positive("tol", "a tolerance");
+    drift.error_times = read_error_times(section, drift.t_end);
     drift.integrators = section.texts("integrators", "names of integrators");
     for (Section& other : section.sections("published")) {
       drift.published.push_back({other.text("name", "the name of a program"),

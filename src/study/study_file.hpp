@@ -22,6 +22,7 @@ struct DriftPlan {
   std::optional<double> quick_t_end;  ///< none: not part of a quick study
   std::vector<double> steps;  ///< s; several of them, from "steps" in the file, make a table of large steps
   std::optional<double> tol;
+  std::vector<double> error_times;  ///< s; see StudyOptions
   std::vector<std::string> integrators;
   std::vector<PublishedDrift> published;  ///< shown below ours
   std::string source;                     ///< of these

@@ -21,9 +21,10 @@ t_end = 50.0
 quick_t_end = 20.0
 step  = 0.05
 tol   = 1e-6
+error_times = [5.0, 10.0, 30.0]
 integrators = ["munjiza", "cvode-adams"]
 )";
-constexpr std::size_t small_runs = 2 * 17 + 2;
+constexpr std::size_t small_runs = 2 * 17 + 3 * 2;
 
 struct StudyFolder {
   TemporaryFolder folder;
@@ -101,6 +102,10 @@ TEST_CASE("bench: a study of one's own is measured once, and reported from the s
   CHECK(keys.size() == small_runs);
   CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
   for (const std::string& name : table_files) CHECK(fs::exists(study.out / name));
+  // The errors that the plan asks for, up to the end of the quick study.
+  const std::string drifts = study.file("drift-symmetric-free-top.csv");
+  CHECK(says(drifts.substr(0, drifts.find('\n')), "verdict,error_at_5_s,error_at_10_s,status"));
+  CHECK(says(study.file("drift-symmetric-free-top.md"), "--error-at 5,10 "));
   for (const std::string& line : study.lines()) CHECK(Json::accept(line));
 
   const std::string store = study.file("runs.jsonl");

@@ -44,6 +44,7 @@ TEST_CASE("study file: what it says is read", "[study]") {
   REQUIRE(beams.drift.size() == 3);
   CHECK(beams.drift[1].steps == std::vector<double>{0.05, 0.1, 0.25, 0.5});
   CHECK(!beams.drift[1].tol);
+  CHECK(beams.drift[1].error_times == std::vector<double>{20.0, 50.0});
   const auto box = std::ranges::find(plan.drift, "tumbling-box", &DriftPlan::scene);
   REQUIRE(box != plan.drift.end());
   REQUIRE(box->published.size() == 4);
