@@ -110,8 +110,8 @@ void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vect
     const double t_end = session_.quick ? *plan.quick_t_end : plan.t_end;
     std::size_t before = 0;
     for (const double time : error_times(plan, t_end)) before += time < t_end ? 1 : 0;
-    parts.push_back({(ladder ? "steps-" : "drift-") + plan.scene,
-                     (ladder ? "Large steps: " : "Drift: ") + plan.scene,
+    parts.push_back({(ladder ? "steps-" : "drift-") + plan.label,
+                     (ladder ? "Large steps: " : "Drift: ") + plan.label,
                      plan.integrators.size() * plan.steps.size() * (1 + before),
                      [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
   }
@@ -214,9 +214,9 @@ bool PartMaker::make_drift(const DriftPlan& plan, output::Progress& progress) {
   if (!options.reference) arguments += " --no-reference";
   if (!options.error_times.empty())
     arguments += fmt::format(" --error-at {:g}", fmt::join(options.error_times, ","));
-  const std::string name = (ladder ? "steps-" : "drift-") + plan.scene;
+  const std::string name = (ladder ? "steps-" : "drift-") + plan.label;
   files_.publish({name,
-                  (ladder ? "Large steps: " : "Drift: ") + plan.scene,
+                  (ladder ? "Large steps: " : "Drift: ") + plan.label,
                   drawing_command(arguments, options),
                   tables,
                   drift_figure(context_.catalogue, study, "energy"),

@@ -125,6 +125,28 @@ TEST_CASE("bench: a study of one's own is measured once, and reported from the s
   CHECK_FALSE(says(study.file("runs.jsonl"), store));
 }
 
+TEST_CASE("bench: a study whose file has been moved or changed is reported as it was made", "[cli][store]") {
+  const std::string drift =
+      "[[drift]]\nlabel = \"mine-own\"\nscene = \"symmetric-free-top\"\nt_end = 5.0\nquick_t_end = 5.0\n"
+      "step = 0.05\nintegrators = [\"munjiza\"]\n";
+  const StudyFolder study("# \xc3\xa4 \"quoted\"\\\n" + drift);
+  REQUIRE(study.bench().exit_code == 0);
+  const fs::path file = study.folder.path() / "mine.toml";
+  fs::remove(file);
+  const Words files{"drift-mine-own.md", "drift-mine-own.csv", "README.md", "report.html"};
+  check_report(study, files);
+  // What stands there meanwhile is another study, and none that could be made.
+  write_text(file, "[[drift]]\n");
+  check_report(study, files);
+  CHECK(study.bench().exit_code == 2);
+  write_text(file, drift + "[[drift]]\nlabel = \"another\"\n" + drift.substr(drift.find("scene")));
+  check_report(study, files);
+  REQUIRE(study.bench().exit_code == 0);
+  CHECK(fs::exists(study.out / "drift-another.md"));
+  fs::remove(file);
+  check_report(study, {"drift-another.md", "drift-mine-own.csv"});
+}
+
 TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][store]") {
   const StudyFolder study(
       "quick_scorecard = [\"asymmetric-free-top\", \"space-moment\"]\n"
