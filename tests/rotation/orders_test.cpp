@@ -115,7 +115,7 @@ class PlantedMoserVeselov {
  public:
   static constexpr bool exact = false;
   explicit PlantedMoserVeselov(const Vector3& inertia) : inertia_(inertia), preprocessing_(inertia) {}
-  Status turn(const Vector3& m, double tau, Quaternion& by) {
+  Status turn(const Vector3& m, double tau, rotation::Quaternion& by) {
     const double scale = inertia_.mean();
     const Vector3 I = inertia_ / scale, scaled = tau / scale * m;
     const double change = (first.factor - 1.0) * I.sum() / (6.0 * I.prod()) * 0.5 * scaled.squaredNorm();
