@@ -147,6 +147,16 @@ std::string Scene::physics_hash() const {
   return hash_text(physics.dump());
 }
 
+Scene Scene::with_end(double time) const {
+  Scene scene = *this;
+  if (time == t_end) return scene;
+  // Some models take scales from how far they were to run.
+  if (!scene.resolved.contains("horizon")) scene.resolved["horizon"] = t_end;
+  scene.resolved["t_end"] = scene.t_end = time;
+  scene.file.clear();
+  return scene;
+}
+
 std::vector<ShippedScene> shipped_scenes(const Catalogue& catalogue) {
   std::vector<ShippedScene> scenes;
   for (const std::string& folder : catalogue.scene_folders) {

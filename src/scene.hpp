@@ -22,6 +22,8 @@ struct Scene {
   std::string file{};  ///< that it is as it stands there; empty where something was changed
   /// Hash of what decides the motion: everything resolved but the name and the description.
   std::string physics_hash() const;
+  /// The same model up to another time.
+  Scene with_end(double time) const;
 };
 
 /// What the command line changes of a scene.

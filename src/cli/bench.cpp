@@ -31,18 +31,17 @@ struct NamedPlan {
   StudyPlan plan;
 };
 
-/// That of a file, or those that are published. Throws UsageError if one cannot be made.
-std::vector<NamedPlan> read_plans(const Context& context, const std::string& study) {
+/// That of the session's file, as it was when the session began and called `file` in messages, or those that
+/// are published. Throws UsageError if one cannot be made.
+std::vector<NamedPlan> read_plans(const Context& context, const Session& session, const std::string& file) {
   std::vector<NamedPlan> plans;
-  const auto add = [&](const std::string& file, const fs::path& name) {
-    plans.push_back({name.string(), read_study(file, &context.catalogue)});
-  };
-  if (!study.empty()) {
-    add(study, fs::path(study).stem());
+  if (!file.empty()) {
+    plans.push_back(
+        {fs::path(file).stem().string(), read_study_text(session.study_text, file, &context.catalogue)});
     return plans;
   }
-  for (const std::string& file : context.catalogue.study_files)
-    add(file, fs::path(file).parent_path().filename());
+  for (const std::string& each : context.catalogue.study_files)
+    plans.push_back({fs::path(each).parent_path().filename().string(), read_study(each, &context.catalogue)});
   return plans;
 }
 
@@ -163,9 +162,9 @@ int bench(Context& context) {
   const std::string usual = own ? "gnomon-out" : request.quick ? results + "/quick" : results;
   const std::string folder = request.out.empty() ? usual : request.out;
   // What cannot be made is refused before anything is written.
-  const std::vector<NamedPlan> plans = read_plans(context, request.study);
-  jobs_of(request);
   const Session session = session_here(context);
+  const std::vector<NamedPlan> plans = read_plans(context, session, request.study);
+  jobs_of(request);
   RunStore store(folder, RunStore::Access::append);
   tell_notes(store);
   begin_session(store, session, request.fresh);
@@ -191,7 +190,7 @@ int report(Context& context) {
   RunStore store(folders.front(), RunStore::Access::read);
   tell_notes(store);
   const Session session = session_of(store);
-  Study study(context, store, session, read_plans(context, session.study), folders.front(), false);
+  Study study(context, store, session, read_plans(context, session, session.study), folders.front(), false);
   try {
     return study.make() ? done : interrupted;
   } catch (const nlohmann::json::exception& error) {

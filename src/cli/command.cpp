@@ -135,6 +135,11 @@ StudyOptions study_options(const Request& request) {
             least_tolerance),
         least_tolerance);
   });
+  options.error_times =
+      each("--error-at", request.error_at, [](const std::string& option, const std::string& text) {
+        return positive_number(option, text, "positive numbers (s) with one comma between them");
+      });
+  std::ranges::sort(options.error_times);
   const std::string tolerance_text =
       fmt::format("a tolerance from {:g} (about the precision of numbers) to below 1", least_tolerance);
   if (!request.step.empty())

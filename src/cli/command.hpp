@@ -29,6 +29,7 @@ struct Request {
   std::string refine;      ///< of `converge`
   std::string vary;        ///< of `stability`, `compare` and `drift`
   std::string max_drift;   ///< of `stability`
+  std::string error_at;    ///< of `drift`
   std::string load_steps;  ///< of `static`
   std::string study;       ///< of `bench`
   std::string jobs;        ///< runs at a time

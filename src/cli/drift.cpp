@@ -4,6 +4,7 @@
 
 #include "src/cli/command.hpp"
 #include "src/cli/files.hpp"
+#include "src/error.hpp"
 #include "src/study/figures.hpp"
 #include "src/study/present.hpp"
 
@@ -13,6 +14,10 @@ int drift(Context& context) {
   const Request& request = context.request;
   const StudyOptions options = study_options(request);
   const std::vector<Scene> scenes = load_scenes(context);
+  for (const Scene& scene : scenes)
+    if (!options.error_times.empty() && options.error_times.back() > scene.t_end)
+      throw UsageError(fmt::format("--error-at: found '{}', expected times up to the end of {}, t = {:g} s",
+                                   request.error_at, scene.name, scene.t_end));
   check_ladders(context, scenes, options);
   check_scheme_options(context, scenes, options);
   warn(scenes);

@@ -9,6 +9,7 @@
 #include "src/environment.hpp"
 #include "src/error.hpp"
 #include "src/output/files.hpp"
+#include "src/study/study_file.hpp"
 
 namespace gnomon::cli {
 
@@ -20,7 +21,9 @@ Session session_here(const Context& context) {
   session.machine = session.environment.at("cpu");
   session.quick = request.quick;
   session.timed = !request.no_timing;
-  if (!request.study.empty()) session.study = std::filesystem::absolute(request.study).string();
+  if (request.study.empty()) return session;
+  session.study = std::filesystem::absolute(request.study).string();
+  session.study_text = gnomon::study_text(request.study);
   return session;
 }
 
@@ -36,6 +39,7 @@ Session session_of(const RunStore& store) {
     session.quick = record->at("quick");
     session.timed = record->value("timed", true);
     session.study = record->at("study");
+    session.study_text = record->value("study_text", "");
     return session;
   } catch (const nlohmann::json::exception&) {
     throw UsageError(
@@ -58,6 +62,7 @@ void begin_session(RunStore& store, const Session& session, bool fresh) {
                 {"quick", session.quick},
                 {"timed", session.timed},
                 {"study", session.study},
+                {"study_text", session.study_text},
                 {"environment", session.environment}});
 }
 

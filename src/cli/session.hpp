@@ -13,6 +13,8 @@ struct Session {
   std::string machine;  ///< its processor
   bool quick = false, timed = true;
   std::string study;  ///< a file of the user's; empty: the published study
+  /// What stood in that file.
+  std::string study_text;
   nlohmann::ordered_json environment;
 };
 

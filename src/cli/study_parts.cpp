@@ -34,6 +34,13 @@ std::string drawing_command(const std::string& arguments, const StudyOptions& op
   return command(arguments, options) + " --out gnomon-out";
 }
 
+/// Those that a study of this length comes to.
+std::vector<double> error_times(const DriftPlan& plan, double t_end) {
+  std::vector<double> times = plan.error_times;
+  std::erase_if(times, [&](double time) { return time > t_end; });
+  return times;
+}
+
 }  // namespace
 
 void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vector<Part>& parts) {
@@ -101,9 +108,12 @@ void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vect
   for (const DriftPlan& plan : study.drift) {
     if (session_.quick && !plan.quick_t_end) continue;
     const bool ladder = plan.steps.size() > 1;
-    parts.push_back({(ladder ? "steps-" : "drift-") + plan.scene,
-                     (ladder ? "Large steps: " : "Drift: ") + plan.scene,
-                     plan.integrators.size() * plan.steps.size(),
+    const double t_end = session_.quick ? *plan.quick_t_end : plan.t_end;
+    std::size_t before = 0;
+    for (const double time : error_times(plan, t_end)) before += time < t_end ? 1 : 0;
+    parts.push_back({(ladder ? "steps-" : "drift-") + plan.label,
+                     (ladder ? "Large steps: " : "Drift: ") + plan.label,
+                     plan.integrators.size() * plan.steps.size() * (1 + before),
                      [=, this](output::Progress& progress) { return make_drift(plan, progress); }});
   }
   for (const VaryPlan& plan : study.vary) {
@@ -189,9 +199,10 @@ bool PartMaker::make_drift(const DriftPlan& plan, output::Progress& progress) {
   options.integrators = plan.integrators;
   options.steps = plan.steps;
   if (plan.tol) options.tols = {*plan.tol};
-  // With large steps the motions part; what is kept and how runs fail is shown.
+  options.error_times = error_times(plan, *changes.t_end);
   const bool ladder = plan.steps.size() > 1;
-  options.reference = !ladder;
+  // With large steps the motions part; what is kept and how runs fail is shown.
+  options.reference = !ladder || !options.error_times.empty();
   const DriftStudy study =
       drift(runner_, load_scene(context_.catalogue, plan.scene, changes), options, progress);
   if (study.interrupted) return false;
@@ -204,10 +215,12 @@ bool PartMaker::make_drift(const DriftPlan& plan, output::Progress& progress) {
   std::string arguments = fmt::format("drift {} --t-end {:g} --step{} {:g}", plan.scene, *changes.t_end,
                                       ladder ? "s" : "", fmt::join(plan.steps, ","));
   if (plan.tol) arguments += fmt::format(" --tol {:g}", *plan.tol);
-  if (ladder) arguments += " --no-reference";
-  const std::string name = (ladder ? "steps-" : "drift-") + plan.scene;
+  if (!options.reference) arguments += " --no-reference";
+  if (!options.error_times.empty())
+    arguments += fmt::format(" --error-at {:g}", fmt::join(options.error_times, ","));
+  const std::string name = (ladder ? "steps-" : "drift-") + plan.label;
   files_.publish({name,
-                  (ladder ? "Large steps: " : "Drift: ") + plan.scene,
+                  (ladder ? "Large steps: " : "Drift: ") + plan.label,
                   drawing_command(arguments, options),
                   tables,
                   drift_figure(context_.catalogue, study, "energy"),

@@ -85,14 +85,40 @@ bool slopes_move(LogPoints points) {
   return one_way && size > 2.0 * least;
 }
 
+// Begins the points from `first` on earlier, as long as the local slopes move the same way.
+std::size_t where_movement_begins(LogPoints points, std::size_t first) {
+  const auto local = [&](std::size_t k) { return slope(points[k], points[k + 1]); };
+  const bool down = local(first) > local(first + 1);
+  while (first > 0 && (local(first - 1) > local(first)) == down) --first;
+  return first;
+}
+
+// How many of the run's `count` points from `first` on have slopes that move: all of them; or all but the
+// last one or two, where these are at roundoff and hide by their scatter that the slopes have been moving one
+// way, five of them at least and the last three by more than twice what an order is accurate to. 0 if they do
+// not.
+std::size_t moving(LogPoints points, std::size_t first, std::size_t count, double roundoff) {
+  if (slopes_move(points.subspan(first, count))) return count;
+  for (std::size_t left = count - 1; left >= 3 && left + 2 >= count; --left) {
+    if (points[first + left].error > std::log(roundoff)) break;
+    const std::size_t begin = where_movement_begins(points, first), end = first + left;
+    const std::vector<double> slopes = local_slopes(points.subspan(begin, end - begin));
+    const bool one_way =
+        std::ranges::is_sorted(slopes) || std::ranges::is_sorted(slopes, std::ranges::greater{});
+    if (!one_way || slopes.size() < 5) continue;
+    if (std::abs(slopes[slopes.size() - 3] - slopes.back()) > 2.0 * accuracy(slopes.back())) return left;
+  }
+  return 0;
+}
+
 // The medians of the two local slopes at either end.
 double first_slope(LogPoints points) { return median(local_slopes(points.first(3))); }
 double last_slope(LogPoints points) { return median(local_slopes(points.last(3))); }
 
-// The longest run with one slope, at the smallest steps if several are as long; with `steady` one whose local
-// slopes do not move.
+// The longest run with one slope, at the smallest steps if several are as long; with the errors that are at
+// `roundoff` one whose local slopes do not move.
 std::optional<Window> find_window(LogPoints points, double tolerance, std::size_t min_points,
-                                  bool steady = true) {
+                                  std::optional<double> roundoff = {}) {
   for (std::size_t count = points.size(); count >= min_points; --count) {
     for (std::size_t first = points.size() - count + 1; first-- > 0;) {
       const LogPoints run = points.subspan(first, count);
@@ -100,7 +126,7 @@ std::optional<Window> find_window(LogPoints points, double tolerance, std::size_
       const auto fits = [&](double local) { return std::abs(local - order) <= tolerance; };
       // A slope within the tolerance of zero is a floor.
       if (order <= tolerance || !std::ranges::all_of(local_slopes(run), fits)) continue;
-      if (steady && slopes_move(run)) continue;
+      if (roundoff && moving(points, first, count, *roundoff) > 0) continue;
       return Window{first, count, order};
     }
   }
@@ -128,11 +154,32 @@ struct Objection {
   double early = ObservedOrder::none, late = ObservedOrder::none;
 };
 
+// The order goes over into another one before a floor: two or more successive local slopes lie on one side of
+// it, down to an error so far above the floor that this cannot bend them. `tail` begins with the window's
+// last point.
+Objection left_above_floor(LogPoints tail, double order, double tolerance) {
+  constexpr double far = 50.0;
+  const std::vector<double> slopes = local_slopes(tail);
+  const auto flat = std::ranges::find_if(slopes, [&](double local) { return local < 0.5 * order; });
+  if (flat == slopes.end()) return {};
+  std::vector<double> floor;
+  for (const LogPoint& point : tail.subspan(static_cast<std::size_t>(flat - slopes.begin()) + 1))
+    floor.push_back(point.error);
+  const double least = median(floor) + std::log(far);
+  std::size_t count = 0;
+  for (; count < slopes.size() && tail[count + 1].error > least; ++count)
+    if (!((slopes[0] > order) == (slopes[count] > order) && std::abs(slopes[count] - order) > tolerance))
+      return {};
+  if (count < 2) return {};
+  return {fmt::format("order {:.2f} is left for {:.2f} above the floor", order, slopes[count - 1]), order,
+          slopes[count - 1]};
+}
+
 // What the points at smaller steps have against the window. `tail` begins with the window's last point;
 // errors up to `roundoff` may scatter.
 Objection contradiction(LogPoints tail, double order, double tolerance, std::size_t min_points,
                         double roundoff) {
-  if (const auto other = find_window(tail, tolerance, min_points, false)) {
+  if (const auto other = find_window(tail, tolerance, min_points)) {
     if (std::abs(other->order - order) <= tolerance) return {};
     const double late = last_slope(tail.subspan(other->first, other->count));
     return {fmt::format("order {:.2f} turns into {:.2f} below step {:.3g}", order, other->order,
@@ -145,6 +192,7 @@ Objection contradiction(LogPoints tail, double order, double tolerance, std::siz
   const auto shallow = [&](double local) { return local < 0.5 * order; };
   const auto above = [&](double local) { return local > order + tolerance; };
   const auto below = [&](double local) { return local < order - tolerance; };
+  if (Objection left = left_above_floor(tail, order, tolerance); !left.text.empty()) return left;
   // Too few to tell a floor's beginning from another order, unless they fall faster.
   if (tail.size() < min_points && !std::ranges::all_of(slopes, above)) return {};
   if (shallow(overall) || twice_running(slopes, shallow)) return {};  // the floor
@@ -160,17 +208,18 @@ Objection contradiction(LogPoints tail, double order, double tolerance, std::siz
 
 // A run whose local slopes move, unless two thirds of it are steady: they have come to rest there.
 Objection restlessness(LogPoints all, const Window& wide, const std::optional<Window>& steady,
-                       double tolerance, std::size_t min_points) {
+                       double tolerance, std::size_t min_points, double roundoff) {
   const std::size_t end = wide.first + wide.count;
   if (steady) {
     const bool within =
         steady->first >= wide.first && steady->count < wide.count && steady->first + steady->count <= end;
     if (!within || 3 * steady->count >= 2 * wide.count) return {};
   }
-  const LogPoints run = all.subspan(wide.first, wide.count);
-  const double early = first_slope(run);
+  const std::size_t clean = moving(all, wide.first, wide.count, roundoff);
+  const LogPoints run = all.subspan(wide.first, clean > 0 ? clean : wide.count);
+  const double early = first_slope(all.subspan(where_movement_begins(all, wide.first)));
   double late = last_slope(run);
-  if (const auto other = find_window(all.subspan(end - 1), tolerance, min_points, false))
+  if (const auto other = find_window(all.subspan(end - 1), tolerance, min_points))
     late = last_slope(all.subspan(end - 1 + other->first, other->count));
   return {fmt::format("the local slopes move from {:.2f} to {:.2f}", early, late), early, late};
 }
@@ -268,7 +317,7 @@ ObservedOrder observe_order(std::vector<OrderPoint> points, const OrderOptions& 
   const auto min_points = static_cast<std::size_t>(std::max(options.min_points, 3));
 
   const double unit = std::isfinite(options.scale) ? options.scale : 1.0;
-  const auto wide = find_window(all, options.window_tolerance, min_points, false);
+  const auto wide = find_window(all, options.window_tolerance, min_points);
   if (!wide) {
     if (!is_at_roundoff(given, min_points, unit)) {
       result.verdict = "not asymptotic: " + why_no_window(all, options, min_points);
@@ -281,12 +330,13 @@ ObservedOrder observe_order(std::vector<OrderPoint> points, const OrderOptions& 
     }
     return result;
   }
-  const auto window = find_window(all, options.window_tolerance, min_points);
-  Objection objection = restlessness(all, *wide, window, options.window_tolerance, min_points);
+  const double roundoff = roundoff_level * unit;
+  const auto window = find_window(all, options.window_tolerance, min_points, roundoff);
+  Objection objection = restlessness(all, *wide, window, options.window_tolerance, min_points, roundoff);
   const std::size_t last = window ? window->first + window->count - 1 : 0;
   if (window && objection.text.empty())
-    objection = contradiction(all.subspan(last), window->order, options.window_tolerance, min_points,
-                              roundoff_level * unit);
+    objection =
+        contradiction(all.subspan(last), window->order, options.window_tolerance, min_points, roundoff);
   const Window& doubtful = window ? *window : *wide;
   if (may_be_floor(all.first(doubtful.first + 1), doubtful, options.window_tolerance, min_points))
     objection = {fmt::format("slope {:.2f} of {} points follows a steeper one: a floor?", doubtful.order,

@@ -65,10 +65,11 @@ struct ObservedOrder {
 /// the smaller steps if several are as long. Within it the local slopes must be steady: their change over the
 /// run, from the parabola of least squares, is not significant (three standard errors) or at most the larger
 /// of 0.1 and 2 % of the order; and it must hold two thirds of the longer run around it whose slopes move, or
-/// these have not come to rest. A flat run is a floor, not an order. No order is given when the smaller steps
-/// beyond the window contradict it: when they converge at another order, or leave it without reaching a
-/// floor, which shows in two successive local slopes below half the order or, at roundoff, in local slopes on
-/// both sides of it. Points may come in any order.
+/// these have not come to rest; one or two errors at roundoff at its end do not hide that they move. A flat
+/// run is a floor, not an order. No order is given when the smaller steps beyond the window contradict it:
+/// when they converge at another order, or leave it on one side far above a floor, or leave it without
+/// reaching a floor, which shows in two successive local slopes below half the order or, at roundoff, in
+/// local slopes on both sides of it. Points may come in any order.
 ObservedOrder observe_order(std::vector<OrderPoint> points, const OrderOptions& options);
 
 }  // namespace gnomon

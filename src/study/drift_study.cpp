@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
@@ -34,7 +36,8 @@ std::size_t drift_runs(const Catalogue& catalogue, const Scene& scene, const Stu
   std::size_t runs = 0;
   for (const SchemeInfo* scheme : select(catalogue, scene, options))
     runs += drift_settings(scene, *scheme, options).size();
-  return runs;
+  const auto before = std::ranges::count_if(options.error_times, [&](double t) { return t < scene.t_end; });
+  return runs * (1 + static_cast<std::size_t>(before));
 }
 
 DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& given, output::Progress& progress) {
@@ -43,15 +46,29 @@ DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& given, output:
   DriftStudy study;
   study.scene = std::move(scene);
   const auto schemes = select(runner.catalogue(), study.scene, options);
-  study.reference = runner.reference(study.scene, options);
+  const std::vector<double>& times = options.error_times;
+  study.error_at_end = times.empty() || std::ranges::find(times, study.scene.t_end) != times.end();
+  if (study.error_at_end) study.reference = runner.reference(study.scene, options);
   std::vector<RunPlan> plans;
   for (const SchemeInfo* scheme : schemes)
     for (const Setting& setting : drift_settings(study.scene, *scheme, options))
       plans.push_back({scheme, setting});
-  study.rows = runner.run_each(study.scene, study.reference, plans, options, [&](const RunPlan& plan) {
-    progress.begin(fmt::format("{} / {}  {}", study.scene.name, plan.scheme->name, plan.setting.text()));
-  });
-  study.interrupted = study.rows.size() < plans.size();
+  const auto run_to_end = [&](const Scene& upto, const ReferenceStates& reference) {
+    std::vector<Row> rows = runner.run_each(upto, reference, plans, options, [&](const RunPlan& plan) {
+      progress.begin(fmt::format("{} / {}  {}", upto.name, plan.scheme->name, plan.setting.text()));
+    });
+    study.interrupted = study.interrupted || rows.size() < plans.size();
+    return rows;
+  };
+  study.rows = run_to_end(study.scene, study.reference);
+  options.watch = given.watch;
+  for (const double time : times) {
+    if (study.interrupted || !(time < study.scene.t_end)) continue;
+    ErrorsBefore& before = study.before.emplace_back();
+    before.scene = study.scene.with_end(time);
+    before.reference = runner.reference(before.scene, options);
+    before.rows = run_to_end(before.scene, before.reference);
+  }
   for (std::size_t k = 0; k < study.rows.size(); ++k)
     for (const InvariantSummary& invariant : study.rows[k].invariants)
       study.drifts.push_back({k, invariant, invariant.measured});

@@ -16,14 +16,24 @@ struct DriftRow {
   Drift drift;
 };
 
+/// The errors of the same runs at a time before their end.
+struct ErrorsBefore {
+  Scene scene;  ///< ends there
+  ReferenceStates reference;
+  std::vector<Row> rows;  ///< one a row of the study
+};
+
 struct DriftStudy : SceneStudy {
   std::vector<DriftRow> drifts;
+  bool error_at_end = true;  ///< it is looked at there, too
+  std::vector<ErrorsBefore> before;
   /// A scheme ran at more than one step or tolerance.
   bool has_ladder() const;
 };
 
 /// Long runs, their invariants sampled at jittered times so that no period is aliased, the trajectory error
-/// beside them.
+/// beside them: at the end, or where no reference reaches so far at the `error_times` of the options, from
+/// runs with the same settings that end there.
 DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
 
 /// How the drift of an invariant falls with the step, over the runs of a scheme that ended well.

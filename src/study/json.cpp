@@ -232,6 +232,34 @@ void Document::add_orders(const std::string& scene, const std::vector<OrderRow>&
   }
 }
 
+namespace {
+
+Json error_before_json(const ErrorsBefore& before, std::size_t row) {
+  Json json{{"t", before.scene.t_end},
+            {"reference", nullptr},
+            {"error_bound", nullptr},
+            {"error", nullptr},
+            {"below_bound", nullptr}};
+  const std::vector<MetricInfo> metrics = before.scene.model->metrics();
+  const auto by_metric = [&](const auto& value) {
+    Json values = Json::object();
+    for (std::size_t k = 0; k < metrics.size(); ++k) values[std::string(metrics[k].name)] = value(k);
+    return values;
+  };
+  if (!before.reference.kind.empty()) {
+    json["reference"] = before.reference.kind;
+    json["error_bound"] =
+        by_metric([&](std::size_t k) { return finite_or_null(before.reference.bounds.back()[k]); });
+  }
+  if (row >= before.rows.size() || before.rows[row].error.empty()) return json;
+  json["error"] = by_metric([&](std::size_t k) { return finite_or_null(before.rows[row].error[k]); });
+  json["below_bound"] =
+      by_metric([&](std::size_t k) { return Json(static_cast<bool>(before.rows[row].below_bound[k])); });
+  return json;
+}
+
+}  // namespace
+
 void Document::add_drifts(const DriftStudy& study) {
   for (const DriftRow& row : study.drifts) {
     const Row& run = study.rows[row.row];
@@ -252,6 +280,8 @@ void Document::add_drifts(const DriftStudy& study) {
          {"undecided_because", why.empty() ? Json(nullptr) : Json(why)},
          {"h_scaling", scaling ? finite_or_null(scaling->exponent) : Json(nullptr)},
          {"h_scaling_of", scaling ? Json(scaling->of_slope ? "slope" : "max_drift") : Json(nullptr)}});
+    for (const ErrorsBefore& before : study.before)
+      json_["drifts"].back()["error_before"].push_back(error_before_json(before, row.row));
   }
 }
 

@@ -46,18 +46,19 @@ Cell evaluations_cell(const std::optional<LevelCost>& cost) {
   return cell;
 }
 
-std::string reference_line(const SceneStudy& study) {
-  const ReferenceStates& reference = study.reference;
+std::string reference_line(const Scene& scene, const ReferenceStates& reference) {
   if (reference.kind.empty())
     return fmt::format("no reference{}", reference.message.empty() ? "" : ": " + reference.message);
   std::string bounds;
-  const std::vector<MetricInfo> metrics = study.scene.model->metrics();
+  const std::vector<MetricInfo> metrics = scene.model->metrics();
   for (std::size_t k = 0; k < metrics.size(); ++k)
     bounds += fmt::format("{}{} {}", k ? ", " : "", metrics[k].name,
                           output::at_most(reference.bounds.back()[k], 2));
   return fmt::format("reference: {} ({}), error bound: {}", reference.kind, reference.methods.front(),
                      bounds);
 }
+
+std::string reference_line(const SceneStudy& study) { return reference_line(study.scene, study.reference); }
 
 void name_linear_solver(const SceneStudy& study, const std::vector<const SchemeInfo*>& schemes,
                         Table& table) {
@@ -84,18 +85,6 @@ Cell order_cell(const ObservedOrder& order, const std::optional<double>& declare
   Cell cell = output::number_cell(*order.observed, 3);
   if (order.finding == OrderFinding::differs) cell.text += fmt::format(" ({:g})", declared.value_or(0.0));
   return cell;
-}
-
-std::string undecided_note(const DriftStudy& study) {
-  std::string text;
-  for (const DriftRow& row : study.drifts) {
-    const Row& run = study.rows[row.row];
-    const std::string why = why_undecided(row.drift);
-    if (why.empty() || run.result.status != Status::ok) continue;
-    text += fmt::format("{}{}, {}, {}: {}", text.empty() ? "undecided: " : "; ", run.scheme->name,
-                        run.setting.text(), row.invariant.info.name, why);
-  }
-  return text;
 }
 
 Table runs_table(const SceneStudy& study, const std::string& caption) {
@@ -240,88 +229,6 @@ Table costs_table(const Comparison& study) {
     table.notes.push_back(text);
   }
   table.notes.push_back(levels_note);
-  return table;
-}
-
-Table drift_table(const DriftStudy& study) {
-  Table table;
-  table.caption =
-      fmt::format("Drift of the invariants, {} to t = {:g} s", study.scene.name, study.scene.t_end);
-  table.columns = {{"integrator", "integrator", Align::left},
-                   {"setting", "setting", Align::left},
-                   {"invariant", "invariant", Align::left},
-                   {"max_drift", "largest drift"},
-                   {"oscillation", "oscillation"},
-                   {"slope_per_s", "slope [1/s]"},
-                   {"slope_error_per_s", "its error [1/s]"},
-                   {"growth", "growth exponent"},
-                   {"verdict", "verdict", Align::left},
-                   {"error", fmt::format("{} error [{}]", study.scene.model->metrics()[0].name,
-                                         study.scene.model->metrics()[0].unit)},
-                   {"status", "status", Align::left}};
-  for (const DriftRow& row : study.drifts) {
-    const Row& run = study.rows[row.row];
-    const bool ok = run.result.status == Status::ok;
-    std::string status(to_string(run.result.status));
-    if (!run.result.message.empty()) status += ": " + run.result.message;
-    table.rows.push_back({std::string(run.scheme->name), run.setting.text(), row.invariant.info.name,
-                          output::number_cell(row.drift.max_abs), output::number_cell(row.drift.oscillation),
-                          output::number_cell(row.drift.slope), output::number_cell(row.drift.slope_error, 2),
-                          output::number_cell(row.drift.growth, 2),
-                          std::string(ok ? to_string(row.drift.verdict) : "failed"), error_cell(run, 0),
-                          status});
-  }
-  table.notes.push_back("drift relative to the invariant's scale, at jittered times");
-  if (const std::string note = undecided_note(study); !note.empty()) table.notes.push_back(note);
-  table.notes.push_back(reference_line(study));
-  return table;
-}
-
-Table drift_runs_table(const DriftStudy& study) {
-  Table table;
-  table.caption = fmt::format("Runs by step, {} to t = {:g} s", study.scene.name, study.scene.t_end);
-  table.columns = {{"integrator", "integrator", Align::left}, {"setting", "setting", Align::left}};
-  const std::vector<InvariantInfo> infos = study.scene.model->invariant_info();
-  for (const InvariantInfo& info : infos) {
-    table.columns.push_back({info.name + "_max_drift", info.name + " drift"});
-    table.columns.push_back({info.name + "_verdict", "verdict", Align::left});
-  }
-  table.columns.insert(
-      table.columns.end(),
-      {{"status", "status", Align::left}, {"reason", "reason", Align::left}, {"t_s", "time reached [s]"}});
-  for (const InvariantInfo& info : infos)
-    table.columns.push_back({info.name + "_h_scaling", info.name + " h-scaling"});
-  for (std::size_t k = 0; k < study.rows.size(); ++k) {
-    const RunResult& result = study.rows[k].result;
-    std::vector<Cell> cells{std::string(study.rows[k].scheme->name), study.rows[k].setting.text()};
-    for (const InvariantInfo& info : infos) {
-      const auto row = std::ranges::find_if(study.drifts, [&](const DriftRow& each) {
-        return each.row == k && each.invariant.info.name == info.name;
-      });
-      if (row == study.drifts.end()) {
-        cells.insert(cells.end(), 2, Cell{});
-        continue;
-      }
-      cells.push_back(output::number_cell(row->drift.max_abs, 2));
-      cells.emplace_back(std::string(result.status == Status::ok ? to_string(row->drift.verdict) : "failed"));
-    }
-    cells.emplace_back(std::string(to_string(result.status)));
-    cells.push_back(result.message.empty() ? Cell{} : Cell(result.message));
-    cells.push_back(output::number_cell(result.t, 6));
-    for (const InvariantInfo& info : infos) {
-      const auto scaling = h_scaling(study, *study.rows[k].scheme, info.name);
-      cells.push_back(scaling ? output::number_cell(scaling->exponent, 3) : Cell{});
-    }
-    table.rows.push_back(std::move(cells));
-  }
-  table.notes.push_back(
-      "h-scaling: exponent s of the largest drift (bounded) or its slope (secular) ~ h^s over the scheme's "
-      "steps that ended well; of three steps or more, drifts above 1e-11");
-  if (const std::string note = undecided_note(study); !note.empty()) table.notes.push_back(note);
-  table.notes.push_back(
-      "largest drift relative to the invariant's scale, at jittered times; of a run that failed, up to the "
-      "time "
-      "it reached");
   return table;
 }
 

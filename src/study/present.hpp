@@ -10,6 +10,7 @@
 namespace gnomon {
 
 /// The reference's kind and bounds in one line.
+std::string reference_line(const Scene& scene, const ReferenceStates& reference);
 std::string reference_line(const SceneStudy& study);
 
 /// How the cost of a level is found, for a note.

@@ -56,9 +56,8 @@ Scorecard scorecard(Runner& runner, const Scene& scene, const StudyOptions& opti
   StudyOptions long_options = options;
   long_options.reference = false;
   long_options.time_limit = std::min(options.time_limit, 20.0);
-  Scene long_scene = scene;
-  long_scene.resolved["t_end"] = long_scene.t_end = card.long_t_end =
-      std::max(scene.t_end, 1000.0 * scene.model->time_scale());
+  card.long_t_end = std::max(scene.t_end, 1000.0 * scene.model->time_scale());
+  const Scene long_scene = scene.with_end(card.long_t_end);
   const DriftStudy drifts = drift(runner, long_scene, long_options, progress);
   for (Score& score : card.scores) {
     for (const Row& row : drifts.rows)

@@ -25,6 +25,8 @@ struct StudyOptions {
   std::vector<double> steps;  ///< s; empty: the default ladder
   std::vector<double> explicit_steps;  ///< s, of schemes with a fixed number of stages; empty: `steps`
   std::vector<double> tols;            ///< empty: the default ladder
+  /// s, up to the end; of `drift`: where the errors of its runs are looked at. Empty: at the end.
+  std::vector<double> error_times;
   int samples = 0;
   int watch = 256;
   long max_steps = 100'000'000;

@@ -6,6 +6,7 @@
 
 #include "src/error.hpp"
 #include "src/instruction_set.hpp"
+#include "src/output/files.hpp"
 #include "src/scene_reader.hpp"
 #include "src/study/study_check.hpp"
 
@@ -34,13 +35,29 @@ bool is_label(const std::string& text) {
   });
 }
 
+std::string read_label(Section& section) {
+  const char* expected = "a name of letters, digits, - and _";
+  std::string label = section.text("label", expected);
+  if (!is_label(label)) section.fail("label", section.shown("label"), expected);
+  return label;
+}
+
+std::vector<double> read_error_times(Section& section, double t_end) {
+  if (!section.has("error_times")) return {};
+  const std::string expected = fmt::format("different times from above 0 to t_end = {:g} (s)", t_end);
+  std::vector<double> times = section.list("error_times", expected);
+  std::ranges::sort(times);
+  if (times.empty() || times.front() <= 0.0 || times.back() > t_end ||
+      std::ranges::adjacent_find(times) != times.end())
+    section.fail("error_times", section.shown("error_times"), expected);
+  return times;
+}
+
 VaryPlan read_vary(Section& section) {
   section.only({"label", "scene", "key", "values", "what", "t_end", "set", "steps", "tols", "integrators",
                 "time_limit", "timing_budget", "full_only"});
   VaryPlan plan;
-  const char* label = "a name of letters, digits, - and _";
-  plan.label = section.text("label", label);
-  if (!is_label(plan.label)) section.fail("label", section.shown("label"), label);
+  plan.label = read_label(section);
   plan.scene = section.text("scene", "a scene's name");
   plan.variation.key = section.text("key", "a key of the scene, as \"beam.EA\"");
   const char* values = "values of the key, every one once";
@@ -116,17 +133,26 @@ StaticRefinePlan read_refine(Section& section) {
 
 }  // namespace
 
+std::string study_text(const std::string& path) {
+  try {
+    return output::read_file(path);
+  } catch (const std::runtime_error& error) {
+    throw UsageError(
+        fmt::format("{}: found no file that can be read, expected that of a study ({})", path, error.what()));
+  }
+}
+
 StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
+  return read_study_text(study_text(path), path, catalogue);
+}
+
+StudyPlan read_study_text(const std::string& text, const std::string& path, const Catalogue* catalogue) {
   toml::table table;
   try {
-    table = toml::parse_file(path);
+    table = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    const auto line = error.source().begin.line;
-    if (line == 0)
-      throw UsageError(fmt::format("{}: found no file that can be read, expected that of a study ({})", path,
-                                   error.description()));
-    throw UsageError(fmt::format("{}:{}: found what is not TOML, expected valid TOML ({})", path, line,
-                                 error.description()));
+    throw UsageError(fmt::format("{}:{}: found what is not TOML, expected valid TOML ({})", path,
+                                 error.source().begin.line, error.description()));
   }
   const SceneSource source{path, {}};
   Section root(table, "", source);
@@ -152,10 +178,11 @@ StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
   plan.integrators = root.texts("integrators", "names of integrators");
   check.shared_integrators(root, plan.integrators);
   each("drift", [&](Section& section) {
-    section.only(
-        {"scene", "t_end", "quick_t_end", "step", "steps", "tol", "integrators", "published", "source"});
+    section.only({"label", "scene", "t_end", "quick_t_end", "step", "steps", "tol", "error_times",
+                  "integrators", "published", "source"});
     DriftPlan drift;
     drift.scene = section.text("scene", "a scene's name");
+    drift.label = section.has("label") ? read_label(section) : drift.scene;
     drift.t_end = section.positive("t_end", "a positive number (s)");
     if (section.has("quick_t_end"))
       drift.quick_t_end = section.positive("quick_t_end", "a positive number (s)");
@@ -165,6 +192,7 @@ StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
     else
       drift.steps = section.positives("steps", "positive numbers (s), at least two");
     if (section.has("tol")) drift.tol = section.positive("tol", "a tolerance");
+    drift.error_times = read_error_times(section, drift.t_end);
     drift.integrators = section.texts("integrators", "names of integrators");
     for (Section& other : section.sections("published")) {
       drift.published.push_back({other.text("name", "the name of a program"),

@@ -17,11 +17,13 @@ struct PublishedDrift {
 };
 
 struct DriftPlan {
+  std::string label{};  ///< files are called by it; the scene's name unless there is another
   std::string scene;
   double t_end;
   std::optional<double> quick_t_end;  ///< none: not part of a quick study
   std::vector<double> steps;  ///< s; several of them, from "steps" in the file, make a table of large steps
   std::optional<double> tol;
+  std::vector<double> error_times;  ///< s; see StudyOptions
   std::vector<std::string> integrators;
   std::vector<PublishedDrift> published;  ///< shown below ours
   std::string source;                     ///< of these
@@ -122,5 +124,10 @@ struct StudyPlan {
 /// Throws UsageError if the file does not fit; with a catalogue also if its scenes or integrators are not in
 /// it or do not go together.
 StudyPlan read_study(const std::string& path, const Catalogue* catalogue = nullptr);
+/// What stands in the file. Throws UsageError if it cannot be read.
+std::string study_text(const std::string& path);
+/// The plan of the text of that file.
+StudyPlan read_study_text(const std::string& text, const std::string& path,
+                          const Catalogue* catalogue = nullptr);
 
 }  // namespace gnomon

@@ -47,6 +47,11 @@ TEST_CASE("bench: every part of a study is checked before anything is written", 
   const std::string scene = "scene = \"space-moment\"\n", names = "integrators = [\"exact-free-top\"]\n";
   check_study_refused("[[drift]]\nt_end = 1\nstep = 0.1\n" + scene + names,
                       "5: drift[0].integrators: " + misfit);
+  for (const char* times : {"[]", "[0.0]", "[0.5, 1.5]", "[0.5, 0.5]"})
+    check_study_refused(
+        "[[drift]]\nt_end = 1\nstep = 0.1\nerror_times = " + std::string(times) + "\n" + scene + names,
+        "4: drift[0].error_times: found " + std::string(times) +
+            ", expected different times from above 0 to t_end = 1 (s)");
   check_study_refused("[[work]]\nsteps = [0.1, 0.2]\ntols = [1e-3, 1e-4]\n" + scene + names,
                       "5: work[0].integrators: " + misfit);
   check_study_refused("[[speed]]\nstep = 0.1\n" + scene + names, "4: speed[0].integrators: " + misfit);

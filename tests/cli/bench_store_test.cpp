@@ -21,9 +21,10 @@ t_end = 50.0
 quick_t_end = 20.0
 step  = 0.05
 tol   = 1e-6
+error_times = [5.0, 10.0, 30.0]
 integrators = ["munjiza", "cvode-adams"]
 )";
-constexpr std::size_t small_runs = 2 * 17 + 2;
+constexpr std::size_t small_runs = 2 * 17 + 3 * 2;
 
 struct StudyFolder {
   TemporaryFolder folder;
@@ -101,6 +102,10 @@ TEST_CASE("bench: a study of one's own is measured once, and reported from the s
   CHECK(keys.size() == small_runs);
   CHECK(std::adjacent_find(keys.begin(), keys.end()) == keys.end());
   for (const std::string& name : table_files) CHECK(fs::exists(study.out / name));
+  // The errors that the plan asks for, up to the end of the quick study.
+  const std::string drifts = study.file("drift-symmetric-free-top.csv");
+  CHECK(says(drifts.substr(0, drifts.find('\n')), "verdict,error_at_5_s,error_at_10_s,status"));
+  CHECK(says(study.file("drift-symmetric-free-top.md"), "--error-at 5,10 "));
   for (const std::string& line : study.lines()) CHECK(Json::accept(line));
 
   const std::string store = study.file("runs.jsonl");
@@ -135,6 +140,28 @@ TEST_CASE("bench: errors in space of equilibria, and their report from the store
   CHECK(document["errors"].size() == 8);
   check_report(study,
                {"refine-tip.md", "refine-tip.csv", "refine-tip.json", "refine-tip.tex", "report.html"});
+}
+
+TEST_CASE("bench: a study whose file has been moved or changed is reported as it was made", "[cli][store]") {
+  const std::string drift =
+      "[[drift]]\nlabel = \"mine-own\"\nscene = \"symmetric-free-top\"\nt_end = 5.0\nquick_t_end = 5.0\n"
+      "step = 0.05\nintegrators = [\"munjiza\"]\n";
+  const StudyFolder study("# \xc3\xa4 \"quoted\"\\\n" + drift);
+  REQUIRE(study.bench().exit_code == 0);
+  const fs::path file = study.folder.path() / "mine.toml";
+  fs::remove(file);
+  const Words files{"drift-mine-own.md", "drift-mine-own.csv", "README.md", "report.html"};
+  check_report(study, files);
+  // What stands there meanwhile is another study, and none that could be made.
+  write_text(file, "[[drift]]\n");
+  check_report(study, files);
+  CHECK(study.bench().exit_code == 2);
+  write_text(file, drift + "[[drift]]\nlabel = \"another\"\n" + drift.substr(drift.find("scene")));
+  check_report(study, files);
+  REQUIRE(study.bench().exit_code == 0);
+  CHECK(fs::exists(study.out / "drift-another.md"));
+  fs::remove(file);
+  check_report(study, {"drift-another.md", "drift-mine-own.csv"});
 }
 
 TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][store]") {

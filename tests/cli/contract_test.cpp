@@ -229,6 +229,54 @@ TEST_CASE("cli: drift reports every invariant of every run in its JSON", "[cli]"
   }
 }
 
+TEST_CASE("cli: drift shows errors before the end, those of the same run that ends there", "[cli]") {
+  const Json json = json_of({"drift", "asymmetric-heavy-top", "--integrators", "rkmk4,cvode-adams", "--step",
+                             "0.02", "--tol", "1e-7", "--t-end", "4", "--error-at", "2,1", "--quiet"});
+  check_document(json, "drift");
+  for (const Json& run : json["runs"]) CHECK(run["error"].is_null());
+  for (const Json& drift : json["drifts"]) {
+    REQUIRE(drift["error_before"].size() == 2);
+    const bool fixed = drift["integrator"] == "rkmk4";
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Json& before = drift["error_before"][k];
+      CHECK(keys_of(before) == Keys{"t", "reference", "error_bound", "error", "below_bound"});
+      CHECK(before["t"] == (k == 0 ? 1.0 : 2.0));
+      CHECK(before["reference"] == "certified");
+      CHECK(before["error_bound"]["orientation"] <= 1e-12);
+      CHECK(before["below_bound"]["orientation"] == false);
+      const Json own = json_of({"run", "asymmetric-heavy-top", "--integrator", drift["integrator"],
+                                fixed ? "--step" : "--tol", fixed ? "0.02" : "1e-7", "--t-end",
+                                k == 0 ? "1" : "2", "--quiet"});
+      CHECK(before["error"]["orientation"] == own["runs"][0]["error"]["orientation"]);
+      if (drift["invariant"] != "energy") break;
+    }
+  }
+}
+
+TEST_CASE("cli: drift shows the errors of a run before it failed, and where they are below the bound",
+          "[cli]") {
+  const Json failing = json_of({"drift", "spaghetti-free-flight", "--integrators", "beam-trapezoidal",
+                                "--step", "0.5", "--t-end", "20", "--error-at", "2,15", "--quiet"},
+                               1);
+  CHECK(failing["runs"][0]["status"] == "newton_failed");
+  CHECK(failing["runs"][0]["t"] == 11.5);
+  const Json& before = failing["drifts"][0]["error_before"];
+  REQUIRE(before.size() == 2);
+  CHECK(before[0]["error"]["displacement"] >= 1e-3);
+  CHECK(before[1]["reference"] == "certified");
+  CHECK(before[1]["error"].is_null());
+
+  const Json exact = json_of(
+      {"drift", "asymmetric-free-top", "--integrators", "exact-free-top", "--error-at", "2,10", "--quiet"});
+  const Json& early = exact["drifts"][0]["error_before"];
+  REQUIRE(early.size() == 1);  // the other one is the end
+  CHECK(early[0]["reference"] == "analytic");
+  CHECK(early[0]["below_bound"]["orientation"] ==
+        (early[0]["error"]["orientation"] == early[0]["error_bound"]["orientation"]));
+  CHECK(early[0]["error"]["orientation"] >= early[0]["error_bound"]["orientation"]);
+  CHECK(exact["runs"][0]["error"]["orientation"].is_number());
+}
+
 TEST_CASE("cli: bounded energy drift of lie-verlet on a heavy top falls as h^2", "[cli]") {
   const Json json = json_of({"drift", "off-axis-heavy-top", "--integrators", "lie-verlet", "--steps",
                              "0.02,0.01,0.005", "--t-end", "50", "--quiet", "--no-reference"});

@@ -5,6 +5,8 @@
 #include <set>
 #include <sstream>
 
+#include "integrators/rotation/exact_splitting.hpp"
+#include "integrators/rotation/moser_veselov.hpp"
 #include "src/study/converge.hpp"
 #include "tests/catch.hpp"
 #include "tests/rotation/book_scheme.hpp"
@@ -81,6 +83,91 @@ struct BetterThanDeclared : BookStep<BookCoefficients{.first_commutator = 0.0, .
 using FourthOrderDefects = TypeList<SignsReversed, LastCommutatorOff, FirstCommutatorMissing, WeightOff,
                                     WeightOffByAMillionth, WeightsShifted, MomentWeightsShifted>;
 using HalfImpulseDefects = TypeList<FullImpulse, PreviousStage, BetterThanDeclared>;
+
+// Splittings and a preprocessed Moser-Veselov step with a defect: of 1e-6 in one coefficient, or a sign.
+constexpr auto steps_of = [](const auto& splitting) { return splitting.drifts; };
+template <std::size_t n>
+constexpr auto changed(std::array<double, n> steps, std::size_t k, double factor) {
+  const double by = steps[k] * (factor - 1.0);
+  steps[k] += by;
+  if (k != n - 1 - k) steps[n - 1 - k] += by;
+  steps[n / 2] -= 2.0 * by;  // the sum stays 1 and the sequence symmetric
+  return rotation::composition(steps);
+}
+template <std::size_t n>
+constexpr auto unbalanced(std::array<double, n> steps, std::size_t k, double factor) {
+  steps[k] *= factor;
+  return rotation::composition(steps);
+}
+constexpr auto yoshida4_copy = changed(steps_of(rotation::yoshida4), 0, 1.0);
+constexpr auto yoshida4_sign = changed(steps_of(rotation::yoshida4), 0, -1.0);
+constexpr auto kahan_li8_copy = changed(steps_of(rotation::kahan_li8), 2, 1.0);
+constexpr auto kahan_li8_off = changed(steps_of(rotation::kahan_li8), 2, 1.0 + 1e-6);
+constexpr auto kahan_li8_one_off = unbalanced(steps_of(rotation::kahan_li8), 2, 1.0 + 1e-6);
+constexpr auto kahan_li8_sign = changed(steps_of(rotation::kahan_li8), 2, -1.0);
+
+/// The first coefficient of sigma, s1/(6 d), times `factor`.
+struct FirstCoefficient {
+  double factor = 1.0;
+};
+template <FirstCoefficient first>
+class PlantedMoserVeselov {
+ public:
+  static constexpr bool exact = false;
+  explicit PlantedMoserVeselov(const Vector3& inertia) : inertia_(inertia), preprocessing_(inertia) {}
+  Status turn(const Vector3& m, double tau, rotation::Quaternion& by) {
+    const double scale = inertia_.mean();
+    const Vector3 I = inertia_ / scale, scaled = tau / scale * m;
+    const double change = (first.factor - 1.0) * I.sum() / (6.0 * I.prod()) * 0.5 * scaled.squaredNorm();
+    const Vector3 inverse = scale * preprocessing_.moments(m, tau).cwiseInverse() + change * I.cwiseInverse();
+    Vector3 c;
+    const Status status = rotation::solve_cayley<rotation::CayleyTerms{false, true}>(
+        Vector3(scale * inverse.cwiseInverse()), 0.5 * tau * m, c, iterations_);
+    by = rotation::cayley(c);
+    return status;
+  }
+  long iterations() const { return iterations_; }
+
+ private:
+  Vector3 inertia_;
+  rotation::Preprocessing<10> preprocessing_;
+  long iterations_ = 0;
+};
+
+// The ends of the names choose the ladder of steps.
+struct Yoshida4Copy : rotation::Kicked<rotation::ExactDrift, yoshida4_copy> {
+  static constexpr SchemeInfo info =
+      planted("yoshida4-copy-exact-drift", rotation::Yoshida4ExactDrift::info.orders);
+};
+struct Yoshida4Sign : rotation::Kicked<rotation::ExactDrift, yoshida4_sign> {
+  static constexpr SchemeInfo info =
+      planted("yoshida4-sign-exact-drift", rotation::Yoshida4ExactDrift::info.orders);
+};
+struct KahanLi8Copy : rotation::Kicked<rotation::ExactDrift, kahan_li8_copy> {
+  static constexpr SchemeInfo info =
+      planted("kahan-li8-copy-exact-drift", rotation::KahanLi8ExactDrift::info.orders);
+};
+struct KahanLi8Off : rotation::Kicked<rotation::ExactDrift, kahan_li8_off> {
+  static constexpr SchemeInfo info =
+      planted("kahan-li8-off-exact-drift", rotation::KahanLi8ExactDrift::info.orders);
+};
+struct KahanLi8OneOff : rotation::Kicked<rotation::ExactDrift, kahan_li8_one_off> {
+  static constexpr SchemeInfo info =
+      planted("kahan-li8-one-off-exact-drift", rotation::KahanLi8ExactDrift::info.orders);
+};
+struct KahanLi8Sign : rotation::Kicked<rotation::ExactDrift, kahan_li8_sign> {
+  static constexpr SchemeInfo info =
+      planted("kahan-li8-sign-exact-drift", rotation::KahanLi8ExactDrift::info.orders);
+};
+struct Dmv10Copy : rotation::Kicked<PlantedMoserVeselov<FirstCoefficient{}>, rotation::strang> {
+  static constexpr SchemeInfo info = planted("dmv10-copy", rotation::Dmv10::info.orders);
+};
+struct Dmv10Off : rotation::Kicked<PlantedMoserVeselov<FirstCoefficient{1.0 + 1e-6}>, rotation::strang> {
+  static constexpr SchemeInfo info = planted("dmv10-off", rotation::Dmv10::info.orders);
+};
+struct Dmv10Sign : rotation::Kicked<PlantedMoserVeselov<FirstCoefficient{-1.0}>, rotation::strang> {
+  static constexpr SchemeInfo info = planted("dmv10-sign", rotation::Dmv10::info.orders);
+};
 
 const char* const scene_of_class[] = {"asymmetric-free-top", "space-moment", "body-moment",
                                       "asymmetric-heavy-top"};
@@ -238,6 +325,38 @@ TEST_CASE("schemes: planted defects are seen in the observed orders", "[rotation
     }
     INFO(scheme.name << "\n" << seen.str());
     CHECK((wrong == 0) == (k < right));
+  }
+}
+
+TEST_CASE("schemes: planted defects of splittings and of the preprocessing are seen in the observed orders",
+          "[rotation][orders][long]") {
+  Catalogue catalogue;
+  add_models(catalogue);
+  add_schemes<TypeList<RigidBody<Gravity>>>(catalogue, TypeList<Yoshida4Copy, KahanLi8Copy>{});
+  add_schemes<TypeList<RigidBody<Free>>>(catalogue, TypeList<Dmv10Copy>{});
+  const std::size_t right = catalogue.schemes.size();
+  add_schemes<TypeList<RigidBody<Gravity>>>(
+      catalogue, TypeList<Yoshida4Sign, KahanLi8Off, KahanLi8OneOff, KahanLi8Sign>{});
+  add_schemes<TypeList<RigidBody<Free>>>(catalogue, TypeList<Dmv10Off, Dmv10Sign>{});
+  ReferenceStore references("");
+  const std::atomic<bool> stop{false};
+  Runner runner(catalogue, references, stop);
+  for (std::size_t k = 0; k < catalogue.schemes.size(); ++k) {
+    const SchemeInfo& scheme = catalogue.schemes[k];
+    int wrong = 0, looked = 0;
+    std::ostringstream seen;
+    for (const char* name : {"asymmetric-free-top", "asymmetric-heavy-top"}) {
+      const Scene scene = load_scene(catalogue, name);
+      if (!catalogue.pair(scheme.name, *scene.model)) continue;
+      for (const OrderRow& row : observe(runner, scene, scheme)) {
+        ++looked;
+        wrong += as_declared(row) ? 0 : 1;
+        seen << name << " " << row.metric << ": " << row.order.verdict << "\n";
+      }
+    }
+    INFO(scheme.name << "\n" << seen.str());
+    CHECK(looked == 2);
+    CHECK(wrong == (k < right ? 0 : looked));
   }
 }
 

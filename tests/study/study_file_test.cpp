@@ -44,6 +44,12 @@ TEST_CASE("study file: what it says is read", "[study]") {
   REQUIRE(beams.drift.size() == 3);
   CHECK(beams.drift[1].steps == std::vector<double>{0.05, 0.1, 0.25, 0.5});
   CHECK(!beams.drift[1].tol);
+  CHECK(beams.drift[1].error_times == std::vector<double>{20.0, 50.0});
+  CHECK(plan.drift[0].label == "asymmetric-free-top");
+  const auto longest = std::ranges::find(plan.drift, "asymmetric-free-top-1e8-steps", &DriftPlan::label);
+  REQUIRE(longest != plan.drift.end());
+  CHECK(longest->t_end / longest->steps.front() == 1e8);
+  CHECK(!longest->quick_t_end);
   const auto box = std::ranges::find(plan.drift, "tumbling-box", &DriftPlan::scene);
   REQUIRE(box != plan.drift.end());
   REQUIRE(box->published.size() == 4);
@@ -68,7 +74,7 @@ TEST_CASE("study file: what it says is read", "[study]") {
   CHECK(beams.work[1].scene == "spin-up-short");
   CHECK(beams.work[1].tols.front() == 1e-3);
   CHECK(beams.work[1].timing_budget < 1e3);
-  REQUIRE(beams.vary.size() == 1);
+  REQUIRE(beams.vary.size() >= 2);
   CHECK(beams.vary[0].variation.key == "beam.EA,beam.GA");
   CHECK(beams.vary[0].variation.numbers().value().back() == 1e10);
   CHECK(beams.vary[0].variation.values.back() == "1e+10");
@@ -76,6 +82,12 @@ TEST_CASE("study file: what it says is read", "[study]") {
   REQUIRE(beams.refine.size() == 2);
   CHECK(beams.refine[0].orders == std::vector<double>{2, 4, 6, 8});
   CHECK(beams.refine[1].row_set.size() == 4);
+  for (const StudyPlan* each : {&plan, &beams}) {
+    const auto map = std::ranges::find(each->vary, true, &VaryPlan::stability);
+    REQUIRE(map != each->vary.end());
+    CHECK(map->label.ends_with("-stability"));
+    CHECK(map->full_only);
+  }
   REQUIRE(beams.speed.size() >= 3);
   CHECK(beams.speed[0].scalar);
   CHECK(beams.speed[0].integrators.size() == 2);
