@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <cmath>
 
 #include <iostream>
 
@@ -89,8 +90,10 @@ void print(const Request& request, const SceneStudy& study) {
     say(request, fmt::format("  own bound {:<10} {}", model.metrics()[k].name,
                              output::at_most(result.own_bound[k], 2)));
   for (const InvariantSummary& invariant : row.invariants)
-    say(request, fmt::format("  drift {:<20} at most {:.3e} of {:.6g}, slope {:.2e} 1/s", invariant.info.name,
-                             invariant.max_drift, invariant.info.scale, invariant.slope));
+    say(request,
+        fmt::format("  drift {:<20} at most {:.3e} of {:.6g}, slope {}", invariant.info.name,
+                    invariant.max_drift, invariant.info.scale,
+                    std::isfinite(invariant.slope) ? fmt::format("{:.2e} 1/s", invariant.slope) : "—"));
   const Cost& cost = result.cost;
   say(request, fmt::format("cost: {} steps, {} rejected, {} rate evaluations, {} moments, {} Jacobians, "
                            "{} factorisations, {} Newton iterations",

@@ -14,8 +14,9 @@
 namespace gnomon {
 namespace {
 
-constexpr double rounding_level = 1e-13;    // errors this small are rounding, whatever they do
-constexpr double random_walk_level = 1e-9;  // a random walk of rounding errors stays below
+constexpr double least_rounding = 1e-13;  // of the initial values and of evaluating the invariant
+constexpr double least_loss = 1e-9;
+constexpr double saturation_level = 1e-2, far_level = 0.1;  // relative to the invariant's scale
 constexpr std::size_t min_samples = 32;
 constexpr std::size_t max_blocks = 64;
 constexpr int max_doublings = 4;
@@ -185,24 +186,39 @@ std::optional<Loss> loss(const Samples& samples, double middle) {
     if (s.time <= middle) before = least;
   }
   const bool seen = samples.front().error > 0.5 * least;  // not lost before the first sample
-  if (!(least < -random_walk_level) || !seen || std::max(regained, highest) > -0.1 * least)
-    return std::nullopt;
+  if (!(least < -least_loss) || !seen || std::max(regained, highest) > -0.1 * least) return std::nullopt;
   return Loss{-least, before - least};
 }
 
+// Grew up to half of the largest error, fourfold or more in the last three doublings of time, and has not
+// come back to a quarter of it in the second half does not come back.
+bool is_saturated(const Samples& samples, const Samples& blocks, double largest) {
+  constexpr std::size_t resolved = 8;
+  const auto far = [&](const Sample& s) { return std::abs(s.error) >= 0.5 * largest; };
+  const auto arrival = static_cast<std::size_t>(std::ranges::find_if(samples, far) - samples.begin());
+  if (arrival < resolved) return false;
+  double early = 0.0;
+  for (std::size_t i = 0; i < arrival / 8; ++i) early = std::max(early, std::abs(samples[i].error));
+  if (early > 0.125 * largest) return false;
+  const auto late = std::span<const Sample>(blocks).subspan(blocks.size() / 2);
+  return std::ranges::all_of(late, [&](const Sample& s) { return std::abs(s.error) > 0.25 * largest; });
+}
+
 DriftVerdict judge(const Drift& drift, const Samples& samples, const Samples& blocks, const Line& line,
-                   double span) {
+                   double span, double rounding) {
   if (const auto lost = loss(samples, samples.back().time - 0.5 * span))
     return lost->late < 0.25 * lost->all ? DriftVerdict::dissipated : DriftVerdict::secular;
   const double change = std::abs(drift.slope) * span;
-  const double negligible = rounding_level * std::max(1.0, drift.max_abs);
+  const double negligible = rounding * std::max(1.0, drift.max_abs);
   const bool significant = std::abs(drift.slope) > 3.0 * drift.slope_error;
   const bool large = change > std::max(drift.oscillation, negligible);
   if (significant && large && !dies_away(blocks, line)) return DriftVerdict::secular;
   // A blow-up is no line.
   if (drift.growth > 1.2 && moves_one_way(blocks) && keeps_growing(blocks)) return DriftVerdict::secular;
+  if (drift.max_abs > saturation_level && is_saturated(samples, blocks, drift.max_abs))
+    return DriftVerdict::saturated;
+  if (drift.max_abs > far_level) return DriftVerdict::far_off;
   if (drift.growth < 0.1) return DriftVerdict::bounded;
-  if (drift.max_abs < random_walk_level) return DriftVerdict::roundoff;
   return walks(blocks, line) || keeps_growing(blocks) ? DriftVerdict::undecided : DriftVerdict::bounded;
 }
 
@@ -220,6 +236,10 @@ std::string_view to_string(DriftVerdict verdict) {
       return "dissipated";
     case DriftVerdict::newton:
       return "Newton residue";
+    case DriftVerdict::saturated:
+      return "saturated";
+    case DriftVerdict::far_off:
+      return "far off";
     case DriftVerdict::undecided:
       return "undecided";
     case DriftVerdict::failed:
@@ -228,7 +248,13 @@ std::string_view to_string(DriftVerdict verdict) {
   return "unknown";
 }
 
-Drift measure_drift(std::span<const double> times, std::span<const double> errors, double start) {
+double rounding_level(double evaluations) {
+  return std::max(least_rounding,
+                  4.0 * std::numeric_limits<double>::epsilon() * std::sqrt(std::max(0.0, evaluations)));
+}
+
+Drift measure_drift(std::span<const double> times, std::span<const double> errors, double start,
+                    double rounding) {
   if (times.size() != errors.size()) throw std::invalid_argument("drift: as many times as errors are needed");
   Drift drift;
   Samples samples;
@@ -242,7 +268,9 @@ Drift measure_drift(std::span<const double> times, std::span<const double> error
   std::ranges::stable_sort(samples, {}, &Sample::time);
 
   drift.max_abs = largest;
-  drift.verdict = largest <= rounding_level ? DriftVerdict::roundoff : DriftVerdict::undecided;
+  drift.verdict = largest <= rounding   ? DriftVerdict::roundoff
+                  : largest > far_level ? DriftVerdict::far_off
+                                        : DriftVerdict::undecided;
   const double span = samples.back().time - start;
   if (samples.size() < min_samples || span <= 0.0) return drift;
 
@@ -251,9 +279,9 @@ Drift measure_drift(std::span<const double> times, std::span<const double> error
   const std::vector<double> rest = residuals(samples, line);
   drift.oscillation = 0.5 * (quantile(rest, 0.99) - quantile(rest, 0.01));
   drift.slope = line.slope;
-  drift.slope_error = slope_error(blocks, line, largest < random_walk_level);
+  drift.slope_error = slope_error(blocks, line, largest < 100.0 * rounding);
   drift.growth = growth_exponent(samples, start);
-  if (largest > rounding_level) drift.verdict = judge(drift, samples, blocks, line, span);
+  if (largest > rounding) drift.verdict = judge(drift, samples, blocks, line, span, rounding);
   return drift;
 }
 

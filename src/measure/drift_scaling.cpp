@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -31,6 +32,38 @@ std::optional<DriftScaling> drift_scaling(std::span<const DriftAtStep> runs) {
   scaling.exponent = theil_sen_slope(steps, drifts);
   if (std::isnan(scaling.exponent)) return std::nullopt;
   return scaling;
+}
+
+bool may_be_biased_rounding(const DriftAtStep& run) {
+  switch (run.drift.verdict) {
+    case DriftVerdict::secular:
+    case DriftVerdict::bounded:
+    case DriftVerdict::undecided:
+      return run.drift.max_abs <= std::numeric_limits<double>::epsilon() * run.evaluations;
+    default:
+      return false;
+  }
+}
+
+void tell_rounding(std::span<DriftAtStep> runs) {
+  std::vector<DriftAtStep*> order;
+  for (DriftAtStep& run : runs) order.push_back(&run);
+  std::ranges::stable_sort(order, std::ranges::greater{}, [](const DriftAtStep* run) { return run->step; });
+  std::vector<DriftAtStep*> found;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto finer =
+        std::find_if(order.begin() + static_cast<std::ptrdiff_t>(k), order.end(),
+                     [&](const DriftAtStep* run) { return run->step <= 0.75 * order[k]->step; });
+    if (finer == order.end() || !may_be_biased_rounding(*order[k])) continue;
+    const DriftVerdict verdict = (*finer)->drift.verdict;
+    const bool is_rounding = verdict == DriftVerdict::roundoff || verdict == DriftVerdict::newton ||
+                             may_be_biased_rounding(**finer);
+    if (!is_rounding || (*finer)->drift.max_abs < 0.7 * order[k]->drift.max_abs) continue;
+    found.push_back(order[k]);
+    if (verdict != DriftVerdict::roundoff) found.push_back(*finer);
+  }
+  for (DriftAtStep* run : found)
+    run->drift.verdict = run->iterates ? DriftVerdict::newton : DriftVerdict::roundoff;
 }
 
 }  // namespace gnomon

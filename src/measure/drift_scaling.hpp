@@ -11,6 +11,8 @@ namespace gnomon {
 struct DriftAtStep {
   double step = 0.0;  ///< > 0
   Drift drift;
+  double evaluations = 0.0;  ///< of the rates, steps or iterations, whichever are most
+  bool iterates = false;     ///< solves nonlinear equations, whose residue does not fall with the step either
 };
 
 /// How the drift falls with the step: ~ h^exponent.
@@ -24,5 +26,14 @@ struct DriftScaling {
 /// other verdict do not count, nor slopes within three of their standard errors, nor drifts up to 1e-11,
 /// which may be roundoff. None if fewer than three different steps are left.
 std::optional<DriftScaling> drift_scaling(std::span<const DriftAtStep> runs);
+
+/// Whether a drift above what a random walk of rounding explains may still be biased rounding, so that only a
+/// run with another step can tell: secular, bounded or undecided and at most u = 2^-52 an evaluation.
+bool may_be_biased_rounding(const DriftAtStep& run);
+
+/// Finds biased rounding among the runs of one scheme: two that may be such, their steps apart by a factor of
+/// 3/4 or more, become roundoff, or a Newton residue where the scheme iterates, if the drift at the smaller
+/// step is at least 0.7 of the other. A truncation error would have fallen.
+void tell_rounding(std::span<DriftAtStep> runs);
 
 }  // namespace gnomon

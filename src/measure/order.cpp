@@ -175,11 +175,24 @@ Objection left_above_floor(LogPoints tail, double order, double tolerance) {
           slopes[count - 1]};
 }
 
+// At roundoff, and not the first after it: some larger step had an error less than three times that of the
+// window, which is therefore no convergence that goes on.
+bool scatters_at_floor(LogPoints tail, const Window& window, double roundoff) {
+  const LogPoints run = tail.subspan(window.first, window.count);
+  const double largest = std::ranges::max(run, {}, &LogPoint::error).error;
+  if (window.first == 0 || largest > std::log(roundoff)) return false;
+  std::vector<double> errors;
+  for (const LogPoint& point : run) errors.push_back(point.error);
+  return std::ranges::min(tail.first(window.first), {}, &LogPoint::error).error <=
+         median(errors) + std::log(3.0);
+}
+
 // What the points at smaller steps have against the window. `tail` begins with the window's last point;
 // errors up to `roundoff` may scatter.
 Objection contradiction(LogPoints tail, double order, double tolerance, std::size_t min_points,
                         double roundoff) {
-  if (const auto other = find_window(tail, tolerance, min_points)) {
+  const auto other = find_window(tail, tolerance, min_points);
+  if (other && !scatters_at_floor(tail, *other, roundoff)) {
     if (std::abs(other->order - order) <= tolerance) return {};
     const double late = last_slope(tail.subspan(other->first, other->count));
     return {fmt::format("order {:.2f} turns into {:.2f} below step {:.3g}", order, other->order,
@@ -263,6 +276,21 @@ std::string why_no_window(LogPoints points, const OrderOptions& options, std::si
                      options.window_tolerance);
 }
 
+// From the largest step on the local slopes come closer and closer to the declared order, from one side,
+// until the error is at roundoff: three of them at least, the last two less than half as far from it as the
+// first.
+bool approaches_until_roundoff(LogPoints points, double declared, double roundoff) {
+  const std::vector<double> slopes = local_slopes(points);
+  std::size_t count = slopes.empty() ? 0 : 1;
+  const auto off = [&](std::size_t k) { return slopes[k] - declared; };
+  while (count < slopes.size() && off(count) * off(0) > 0.0 &&
+         std::abs(off(count)) < std::abs(off(count - 1)))
+    ++count;
+  if (count < 3 || points[count].error > std::log(roundoff)) return false;
+  const LogPoints run = points.first(count + 1);
+  return std::abs(last_slope(run) - declared) < 0.5 * std::abs(first_slope(run) - declared);
+}
+
 // All errors are at roundoff, and not because the last of them fell there.
 bool is_at_roundoff(const std::vector<OrderPoint>& points, std::size_t min_points, double unit) {
   std::vector<double> errors;  // from the largest step
@@ -321,6 +349,10 @@ ObservedOrder observe_order(std::vector<OrderPoint> points, const OrderOptions& 
   if (!wide) {
     if (!is_at_roundoff(given, min_points, unit)) {
       result.verdict = "not asymptotic: " + why_no_window(all, options, min_points);
+      if (options.declared && approaches_until_roundoff(all, *options.declared, roundoff_level * unit)) {
+        result.finding = OrderFinding::approaching;
+        result.verdict += fmt::format("; approaching {:g} until roundoff", *options.declared);
+      }
     } else if (options.declared) {
       result.finding = OrderFinding::roundoff;
       result.verdict = "not asymptotic: the error is at roundoff at every step";

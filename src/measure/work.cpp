@@ -23,7 +23,7 @@ std::optional<LevelCost> level_cost(std::span<const WorkPoint> curve, double err
       envelope = std::max(envelope, curve[k].error);
     }
     if (!counts) continue;
-    LevelCost found{curve[i].cost, i == 0};
+    LevelCost found{curve[i].cost, i == 0, i + 3 > curve.size()};
     if (i > 0 && !(curve[i - 1].error <= error)) {
       const WorkPoint& looser = curve[i - 1];
       if (positive(envelope) && positive(looser.error) && positive(found.cost) && positive(looser.cost)) {

@@ -16,6 +16,7 @@ struct WorkPoint {
 struct LevelCost {
   double cost = 0.0;
   bool upper_bound = false;  ///< nothing looser is there to interpolate with: it costs no more than this
+  bool few = false;          ///< it rests on fewer than three settings: the curve ends there
 };
 
 /// Cost of reaching `error` on a curve ordered from the loosest setting to the tightest: the least of all

@@ -16,6 +16,8 @@ std::vector<double> default_tols(bool quick) {
   return tols;
 }
 
+constexpr double loosest_tol = 0.1;
+
 std::vector<Setting> work_ladder(const Scene& scene, const SchemeInfo& scheme, const StudyOptions& options) {
   // High orders fall to roundoff within a few doublings, from larger steps.
   const std::vector<double> steps = is_of_high_order(scene, scheme)
@@ -54,6 +56,11 @@ CostRow costs_of(const Comparison& study, const SchemeInfo& scheme, const std::v
     cost.seconds.push_back(level_cost(seconds, level));
     cost.evaluations.push_back(level_cost(evaluations, level));
   }
+  // A closed form has one setting and no looser one.
+  if (scheme.stepping == Stepping::closed_form)
+    for (auto* costs : {&cost.seconds, &cost.evaluations})
+      for (std::optional<LevelCost>& each : *costs)
+        if (each) each->upper_bound = each->few = false;
   return cost;
 }
 
@@ -89,7 +96,60 @@ std::vector<bool> front_of(const Comparison& study, CostOf&& cost_of_row) {
   return pareto_front(points);
 }
 
+bool is_default_ladder(const SchemeInfo& scheme, const StudyOptions& options) {
+  if (scheme.stepping == Stepping::closed_form) return false;
+  if (scheme.stepping == Stepping::adaptive) return options.tols.empty();
+  return options.steps.empty() && !(scheme.stages > 0 && !options.explicit_steps.empty());
+}
+
+/// Puts looser settings before those of the default ladders whose loosest one already reaches the loosest
+/// level, until one does not or fails, which is left out: what a level costs must not depend on where a
+/// ladder begins.
+void loosen(Runner& runner, Comparison& study, const std::vector<const SchemeInfo*>& schemes,
+            const StudyOptions& options) {
+  const double level = study.levels.front();
+  std::vector<const SchemeInfo*> open;
+  for (const SchemeInfo* scheme : schemes)
+    if (is_default_ladder(*scheme, options)) open.push_back(scheme);
+  const auto loosest = [&](const SchemeInfo* scheme) {
+    return std::ranges::find(study.rows, scheme, &Row::scheme);
+  };
+  while (!open.empty() && !runner.stopped()) {
+    std::vector<RunPlan> plans;
+    for (const SchemeInfo* scheme : open) {
+      const auto row = loosest(scheme);
+      if (row == study.rows.end() || row->result.status != Status::ok || row->error.empty() ||
+          !(row->error[0] <= level))
+        continue;
+      if (const auto setting = looser(study.scene, row->setting)) plans.push_back({scheme, *setting});
+    }
+    if (plans.empty()) return;
+    open.clear();
+    for (Row& row : runner.run_each(study.scene, study.reference, plans, options, [](const RunPlan&) {})) {
+      if (row.result.status != Status::ok || !row.result.flags.empty()) continue;
+      open.push_back(row.scheme);
+      study.rows.insert(loosest(row.scheme), std::move(row));
+    }
+  }
+}
+
 }  // namespace
+
+std::optional<Setting> looser(const Scene& scene, const Setting& setting) {
+  if (setting.tol) {
+    if (*setting.tol > 0.5 * loosest_tol) return std::nullopt;
+    return Setting{std::nullopt, std::min(10.0 * *setting.tol, loosest_tol)};
+  }
+  const std::vector<double> breaks = scene.model->breaks();
+  const StepPlan plan = plan_steps(scene.t_end, *setting.step, breaks);
+  // Half the number of steps, fewer where only that meets the breaks as this one does.
+  for (long count = plan.count / 2; count >= 1; --count) {
+    const double step = scene.t_end / static_cast<double>(count);
+    if (plan.misses_break || !plan_steps(scene.t_end, step, breaks).misses_break)
+      return Setting{step, std::nullopt};
+  }
+  return std::nullopt;
+}
 
 std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options) {
   std::size_t runs = 0;
@@ -111,6 +171,7 @@ Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, out
   study.rows = runner.run_each(study.scene, study.reference, plans, options, [&](const RunPlan& plan) {
     progress.begin(fmt::format("{} / {}  {}", study.scene.name, plan.scheme->name, plan.setting.text()));
   });
+  loosen(runner, study, schemes, options);
   study.interrupted = runner.stopped();
   if (study.interrupted) return study;
   if (options.timing) {

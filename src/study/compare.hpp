@@ -29,11 +29,17 @@ struct Comparison : SceneStudy {
   std::vector<bool> front_in_time, front_in_evaluations;
 };
 
-/// Error against cost, a ladder of steps or tolerances for each scheme, timed interleaved.
+/// Error against cost, a ladder of steps or tolerances for each scheme, timed interleaved. Default ladders go
+/// on to looser settings, by factors of 2 and 10, as long as the run ends well and its error is not above the
+/// loosest level, so that the cost of a level does not depend on where they begin.
 Comparison compare(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
 
 /// What errors of other levels cost a scheme.
 CostRow costs_of(const Comparison& study, const SchemeInfo& scheme, const std::vector<double>& levels);
+
+/// The next looser setting: half the number of steps, down to one, or ten times the tolerance, up to 0.1;
+/// none beyond.
+std::optional<Setting> looser(const Scene& scene, const Setting& setting);
 
 std::size_t compare_runs(const Catalogue& catalogue, const Scene& scene, const StudyOptions& options);
 

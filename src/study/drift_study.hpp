@@ -33,7 +33,8 @@ struct DriftStudy : SceneStudy {
 
 /// Long runs, their invariants sampled at jittered times so that no period is aliased, the trajectory error
 /// beside them: at the end, or where no reference reaches so far at the `error_times` of the options, from
-/// runs with the same settings that end there.
+/// runs with the same settings that end there. Where an invariant's drift may be biased rounding or the
+/// truncation of the scheme, another run at half the step decides, which is not shown.
 DriftStudy drift(Runner& runner, Scene scene, const StudyOptions& options, output::Progress& progress);
 
 /// How the drift of an invariant falls with the step, over the runs of a scheme that ended well.

@@ -105,6 +105,7 @@ Table drift_table(const DriftStudy& study) {
     table.rows.back().emplace_back(status);
   }
   table.notes.push_back("drift relative to the invariant's scale, at jittered times");
+  table.notes.push_back(verdict_marks);
   if (const std::string note = undecided_note(study); !note.empty()) table.notes.push_back(note);
   add_error_notes(study, table);
   return table;
@@ -152,6 +153,7 @@ Table drift_runs_table(const DriftStudy& study) {
   table.notes.push_back(
       "h-scaling: exponent s of the largest drift (bounded) or its slope (secular) ~ h^s over the scheme's "
       "steps that ended well; of three steps or more, drifts above 1e-11");
+  table.notes.push_back(verdict_marks);
   if (const std::string note = undecided_note(study); !note.empty()) table.notes.push_back(note);
   table.notes.push_back(
       "largest drift relative to the invariant's scale, at jittered times; of a run that failed, up to the "

@@ -197,15 +197,18 @@ void Document::add_comparison(const Comparison& study) {
   for (const CostRow& cost : study.costs)
     for (std::size_t k = 0; k < study.levels.size(); ++k) {
       const auto &seconds = cost.seconds[k], &evaluations = cost.evaluations[k];
-      json_["costs"].push_back({{"scene", study.scene.name},
-                                {"integrator", cost.scheme->name},
-                                {"metric", study.scene.model->metrics()[0].name},
-                                {"error", study.levels[k]},
-                                {"cpu_seconds", number(seconds)},
-                                {"rhs", number(evaluations)},
-                                {"upper_bound",
-                                 {{"cpu_seconds", seconds && seconds->upper_bound},
-                                  {"rhs", evaluations && evaluations->upper_bound}}}});
+      json_["costs"].push_back(
+          {{"scene", study.scene.name},
+           {"integrator", cost.scheme->name},
+           {"metric", study.scene.model->metrics()[0].name},
+           {"error", study.levels[k]},
+           {"cpu_seconds", number(seconds)},
+           {"rhs", number(evaluations)},
+           {"upper_bound",
+            {{"cpu_seconds", seconds && seconds->upper_bound},
+             {"rhs", evaluations && evaluations->upper_bound}}},
+           {"few_settings",
+            {{"cpu_seconds", seconds && seconds->few}, {"rhs", evaluations && evaluations->few}}}});
     }
 }
 

@@ -34,8 +34,9 @@ Json drift_json(const InvariantSummary& summary) {
 }
 
 DriftVerdict verdict_named(const std::string& name) {
-  for (const DriftVerdict verdict : {DriftVerdict::bounded, DriftVerdict::secular, DriftVerdict::roundoff,
-                                     DriftVerdict::dissipated, DriftVerdict::newton, DriftVerdict::undecided})
+  for (const DriftVerdict verdict :
+       {DriftVerdict::bounded, DriftVerdict::secular, DriftVerdict::roundoff, DriftVerdict::dissipated,
+        DriftVerdict::newton, DriftVerdict::saturated, DriftVerdict::far_off, DriftVerdict::undecided})
     if (to_string(verdict) == name) return verdict;
   return DriftVerdict::failed;
 }

@@ -110,6 +110,7 @@ nlohmann::ordered_json levels_json(const Levels& levels) {
     json.back() = {{"error", level->error}, {"evaluations", level->evaluations}};
     if (level->setting.step) json.back()["step"] = *level->setting.step;
     if (level->setting.tol) json.back()["tol"] = *level->setting.tol;
+    json.back()["loosest"] = level->loosest;
   }
   return json;
 }
@@ -119,9 +120,10 @@ Levels restore_levels(const nlohmann::ordered_json& json) {
   for (const auto& each : json) {
     levels.emplace_back();
     if (each.is_null()) continue;
-    LevelTime level{{}, each.at("error"), each.at("evaluations"), {}};
+    LevelTime level{{}, each.at("error"), each.at("evaluations"), {}, false};
     if (each.contains("step")) level.setting.step = each.at("step");
     if (each.contains("tol")) level.setting.tol = each.at("tol");
+    level.loosest = each.value("loosest", false);
     levels.back() = level;
   }
   return levels;
@@ -144,9 +146,12 @@ Levels find_levels(const Contender& contender, const PeerPlan& plan, double t_en
   if (contender.row.closed_form) errors.resize(3, errors.front());
   for (double level : plan.levels) {
     const auto found = loosest_that_counts(errors, level);
-    levels.push_back(found
-                         ? std::optional(LevelTime{settings[*found], errors[*found], evaluations[*found], {}})
-                         : std::nullopt);
+    levels.push_back(found ? std::optional(LevelTime{settings[*found],
+                                                     errors[*found],
+                                                     evaluations[*found],
+                                                     {},
+                                                     *found == 0 && !contender.row.closed_form})
+                           : std::nullopt);
   }
   return levels;
 }
@@ -229,9 +234,15 @@ output::Table peers_table(const PeerStudy& study) {
     std::vector<output::Cell> cells{row.name};
     for (std::size_t k = 0; k < row.levels.size(); ++k) {
       const auto peer = study.best(k, true);
-      cells.push_back(row.levels[k] ? output::number_cell(1e6 * row.levels[k]->run.median) : output::Cell{});
-      cells.push_back(row.levels[k] && peer ? output::number_cell(row.levels[k]->run.median / *peer, 2)
-                                            : output::Cell{});
+      output::Cell time, ratio;
+      if (row.levels[k]) {
+        time = output::number_cell(1e6 * row.levels[k]->run.median);
+        if (peer) ratio = output::number_cell(row.levels[k]->run.median / *peer, 2);
+        if (row.levels[k]->loosest)
+          for (output::Cell* cell : {&time, &ratio}) cell->text = "≤ " + cell->text;
+      }
+      cells.push_back(std::move(time));
+      cells.push_back(std::move(ratio));
     }
     table.rows.push_back(std::move(cells));
   }
@@ -246,7 +257,7 @@ output::Table peers_table(const PeerStudy& study) {
       fmt::format("our fastest stepping scheme over the best peer: {}; asked: {}", reached, asked));
   table.notes.push_back(
       "medians of thread CPU time, all interleaved in one run; a setting counts only if the two next tighter "
-      "ones also reach the level");
+      "ones also reach the level; ≤: already the loosest one that was tried does");
   return table;
 }
 
@@ -267,6 +278,7 @@ output::Table peer_runs_table(const PeerStudy& study) {
       const LevelTime& time = *row.levels[k];
       output::Cell median = output::number_cell(1e6 * time.run.median);
       if (time.run.unstable) median.text += "*";
+      if (time.loosest) median.text = "≤ " + median.text;
       table.rows.push_back(
           {row.name, output::number_cell(study.plan.levels[k], 1), setting_text(time.setting),
            output::number_cell(time.error, 2), output::count_cell(time.evaluations), median,
@@ -299,6 +311,7 @@ nlohmann::ordered_json peers_json(const PeerStudy& study) {
         entry["us_min"] = 1e6 * time.run.min;
         entry["repetitions"] = time.run.repetitions;
         entry["unstable"] = time.run.unstable;
+        entry["upper_bound"] = time.loosest;
         entry["ratio"] = number(peer ? std::optional(time.run.median / *peer) : std::nullopt);
       }
       json["times"].push_back(std::move(entry));

@@ -15,7 +15,8 @@ struct LevelTime {
   Setting setting;
   double error;
   long evaluations;
-  TimingStats run;  ///< s
+  TimingStats run;       ///< s
+  bool loosest = false;  ///< no looser setting was tried: it takes no more than this
 };
 
 /// One integrator, of ours or of another library.

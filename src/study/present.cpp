@@ -32,18 +32,20 @@ Cell error_cell(const Row& row, std::size_t metric) {
                                  : output::number_cell(row.error[metric]);
 }
 
-Cell microseconds_cell(const std::optional<LevelCost>& cost) {
-  if (!cost) return {};
-  Cell cell = output::number_cell(1e6 * cost->cost, 3);
-  if (cost->upper_bound) cell.text = "≤ " + cell.text;
+namespace {
+Cell marked(Cell cell, const LevelCost& cost) {
+  if (cost.upper_bound) cell.text = "≤ " + cell.text;
+  if (cost.few) cell.text += "°";
   return cell;
+}
+}  // namespace
+
+Cell microseconds_cell(const std::optional<LevelCost>& cost) {
+  return cost ? marked(output::number_cell(1e6 * cost->cost, 3), *cost) : Cell{};
 }
 
 Cell evaluations_cell(const std::optional<LevelCost>& cost) {
-  if (!cost) return {};
-  Cell cell = output::count_cell(std::llround(cost->cost));
-  if (cost->upper_bound) cell.text = "≤ " + cell.text;
-  return cell;
+  return cost ? marked(output::count_cell(std::llround(cost->cost)), *cost) : Cell{};
 }
 
 std::string reference_line(const Scene& scene, const ReferenceStates& reference) {

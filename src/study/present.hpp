@@ -16,8 +16,8 @@ std::string reference_line(const SceneStudy& study);
 /// How the cost of a level is found, for a note.
 inline constexpr const char* levels_note =
     "the cheapest setting that counts: it and the next two tighter ones reach the level; log-log to the next "
-    "looser one, "
-    "≤: already the loosest one reaches it; — not reached";
+    "looser one, ≤: already the loosest one reaches it; °: there are fewer than two tighter ones; — not "
+    "reached";
 
 /// Inserts a column with the linear solver that was asked for, where it is not the default; `schemes` are
 /// those of the rows.
@@ -28,7 +28,8 @@ void name_linear_solver(const SceneStudy& study, const std::vector<const SchemeI
 int style_of_scheme(const Catalogue& catalogue, const SchemeInfo& scheme);
 /// An error, with a sign where it is not above the bound of the reference.
 output::Cell error_cell(const Row& row, std::size_t metric);
-/// The cost of a level: microseconds of CPU time, or evaluations; an upper bound with its sign.
+/// The cost of a level: microseconds of CPU time, or evaluations; an upper bound and one that rests on few
+/// settings with their signs.
 output::Cell microseconds_cell(const std::optional<LevelCost>& cost);
 output::Cell evaluations_cell(const std::optional<LevelCost>& cost);
 

@@ -110,7 +110,8 @@ nlohmann::ordered_json scorecard_json(const Scorecard& card) {
       item["costs"].push_back({{"error", card.levels[k]},
                                {"cpu_seconds", seconds ? number(seconds->cost) : Json(nullptr)},
                                {"rhs", evaluations ? number(evaluations->cost) : Json(nullptr)},
-                               {"upper_bound", evaluations && evaluations->upper_bound}});
+                               {"upper_bound", evaluations && evaluations->upper_bound},
+                               {"few_settings", evaluations && evaluations->few}});
     }
     item["energy"] = nullptr;
     if (score.energy)

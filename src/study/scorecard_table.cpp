@@ -13,7 +13,7 @@ namespace {
 
 /// From the best to the worst.
 int badness(const Score& score) {
-  if (score.long_run != Status::ok) return 7;
+  if (score.long_run != Status::ok) return 9;
   if (!score.energy) return -1;
   switch (score.energy->verdict) {
     case DriftVerdict::roundoff:
@@ -28,10 +28,14 @@ int badness(const Score& score) {
       return 4;
     case DriftVerdict::secular:
       return 5;
-    case DriftVerdict::failed:
+    case DriftVerdict::saturated:
       return 6;
+    case DriftVerdict::far_off:
+      return 7;
+    case DriftVerdict::failed:
+      return 8;
   }
-  return 6;
+  return 8;
 }
 
 std::string energy_text(const Score& score) {
@@ -86,30 +90,39 @@ const std::optional<LevelCost>& cost_of(const Score& score, std::size_t level, b
 }
 
 /// Of the schemes that step.
-double least_cost(const Scorecard& card, std::size_t level, bool times) {
-  double least = std::nan("");
+std::optional<LevelCost> least_cost(const Scorecard& card, std::size_t level, bool times) {
+  std::optional<LevelCost> least;
   for (const Score& score : card.scores)
     if (const auto& cost = cost_of(score, level, times);
-        cost && score.scheme->stepping != Stepping::closed_form && !(cost->cost >= least))
-      least = cost->cost;
+        cost && score.scheme->stepping != Stepping::closed_form && (!least || cost->cost < least->cost))
+      least = cost;
   return least;
 }
 
-/// Geometric mean over the scenes on which the scheme reaches the level.
-output::Cell joint_cost_cell(const std::vector<ScoreOn>& all, std::size_t level, bool times) {
+/// Geometric mean over the scenes, if the scheme reaches the level on all of them: means over different
+/// scenes do not compare. An upper bound carries over to it; where the least is one, the ratio is a lower
+/// bound.
+output::Cell joint_cost_cell(const std::vector<ScoreOn>& all, std::size_t scenes, std::size_t level,
+                             bool times) {
   double logarithms = 0.0;
   std::size_t reached = 0;
+  bool at_most = false, at_least = false, few = false;
   for (const ScoreOn& on : all) {
     const auto& cost = cost_of(*on.score, level, times);
-    const double least = least_cost(*on.card, level, times);
-    if (!cost || !(cost->cost > 0.0 && least > 0.0)) continue;
+    const auto least = least_cost(*on.card, level, times);
+    if (!cost || !least || !(cost->cost > 0.0 && least->cost > 0.0)) continue;
     if (!times && on.score->scheme->stepping == Stepping::closed_form) continue;
-    logarithms += std::log(cost->cost / least);
+    logarithms += std::log(cost->cost / least->cost);
+    at_most = at_most || cost->upper_bound;
+    at_least = at_least || (least->upper_bound && cost->cost != least->cost);
+    few = few || cost->few;
     ++reached;
   }
   if (reached == 0) return {};
+  if (reached < scenes) return {output::missing_text + of_all(reached, scenes), ""};
   output::Cell cell = output::number_cell(std::exp(logarithms / static_cast<double>(reached)), 2);
-  cell.text += of_all(reached, all.size());
+  if (at_most || at_least) cell.text = (at_most && at_least ? "≈ " : at_most ? "≤ " : "≥ ") + cell.text;
+  if (few) cell.text += "°";
   return cell;
 }
 
@@ -214,7 +227,7 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
     std::vector<output::Cell> cells{std::string(scheme->name) + of_all(all.size(), cards.size()),
                                     joint_order_cell(all)};
     for (std::size_t k = 0; k < cards.front().levels.size(); ++k)
-      cells.push_back(joint_cost_cell(all, k, times));
+      cells.push_back(joint_cost_cell(all, cards.size(), k, times));
     add_energy_cells(cells, all);
     add_step_cells(cells, all);
     cells.emplace_back(fmt::format("{} of {}", failed, runs), fmt::format("{}", failed));
@@ -229,12 +242,16 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
   }
   table.notes.push_back("scenes: " + scenes + "; in brackets on how many of them, where not on all");
   table.notes.push_back(fmt::format(
-      "{} to an error: times the least of the schemes that step, geometric mean over the scenes; where "
-      "already "
-      "the loosest setting reaches it, the cost of that one; — not reached",
+      "{} to an error: times the least of the schemes that step, geometric mean over the scenes, all of "
+      "which "
+      "have to reach it; ≤: on one of them already the loosest setting reaches it, ≥: that of the scheme "
+      "with "
+      "the least, ≈: both; °: fewer than two tighter settings confirm it; — not reached, in brackets on how "
+      "many scenes it is",
       what));
   table.notes.push_back(std::string("order: ") + order_marks);
   add_undecided(table, cards);
+  table.notes.push_back(verdict_marks);
   table.notes.push_back(
       "energy: the worst of the scenes that keep one, over a thousand time scales, a tenth of one the step, "
       "1e-8 the "
@@ -291,12 +308,13 @@ output::Table scorecard_table(const Scorecard& card) {
   table.notes.push_back(reference_line(card.comparison));
   table.notes.push_back(
       fmt::format("order and cost of the {} error at t = {:g} s; ≤: already the loosest setting reaches the "
-                  "level; — not reached",
+                  "level; °: fewer than two tighter ones confirm it; — not reached",
                   metric.name, scene.t_end));
   table.notes.push_back(std::string("order: ") + order_marks);
   table.notes.push_back(fmt::format("energy to t = {:g} s at a step of {:.3g} s or a tolerance of 1e-8",
                                     card.long_t_end, 0.1 * scene.model->time_scale()));
   add_undecided(table, {&card, 1});
+  table.notes.push_back(verdict_marks);
   table.notes.push_back("largest step: " + largest_step_note());
   return table;
 }

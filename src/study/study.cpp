@@ -163,7 +163,8 @@ Row Runner::run_here(const Scene& scene, const ReferenceStates& reference, const
   row.setting = setting;
   row.options = options.scheme;
   row.result = pair->run(scene.model->get(), spec(scene, setting, options));
-  row.invariants = summarise_invariants(*scene.model, row.result.invariants);
+  row.invariants =
+      summarise_invariants(*scene.model, row.result.invariants, count_evaluations(row.result.cost));
   for (InvariantSummary& invariant : row.invariants) {
     const std::string& name = invariant.info.name;
     const bool conserved =
@@ -336,7 +337,12 @@ std::vector<Setting> settings(const SchemeInfo& scheme, const StudyOptions& opti
   return list;
 }
 
-std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const Trace& trace) {
+double count_evaluations(const Cost& cost) {
+  return static_cast<double>(std::max({cost.steps, cost.rhs, cost.moments, cost.newton_iterations}));
+}
+
+std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const Trace& trace,
+                                                   double evaluations) {
   std::vector<InvariantSummary> summaries;
   const std::vector<InvariantInfo> infos = model.invariant_info();
   std::size_t width = 0, offset = 0;
@@ -360,7 +366,8 @@ std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const 
       summary.max_drift = std::isnan(drift) ? drift : std::max(summary.max_drift, std::abs(drift));
     }
     if (!summary.times.empty())
-      summary.measured = measure_drift(summary.times, summary.drift, summary.times.front());
+      summary.measured =
+          measure_drift(summary.times, summary.drift, summary.times.front(), rounding_level(evaluations));
     summary.slope = summary.measured.slope;
     offset += size;
     summaries.push_back(std::move(summary));

@@ -158,7 +158,11 @@ std::vector<double> step_ladder(const Scene& scene, const SchemeInfo& scheme, in
 std::vector<Setting> settings(const SchemeInfo& scheme, const StudyOptions& options,
                               const std::vector<double>& steps, const std::vector<double>& tols);
 
-std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const Trace& trace);
+/// The drifts of a run with so many evaluations; see rounding_level.
+std::vector<InvariantSummary> summarise_invariants(const AnyModel& model, const Trace& trace,
+                                                   double evaluations = 0.0);
+/// Of rates or moments, Newton iterations or steps, whichever are most.
+double count_evaluations(const Cost& cost);
 /// Wall-clock time after which a run that does not look at its own limit is ended, s.
 double patience(const StudyOptions& options);
 /// Twelve points a decade of time of the largest |drift| so far: enough to see growth.

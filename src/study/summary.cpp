@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "src/study/present.hpp"
+
 namespace gnomon {
 namespace {
 
@@ -62,7 +64,7 @@ void Fastest::add(const Comparison& study) {
       if (!best || row.seconds[level]->cost < best->seconds[level]->cost) best = &row;
     }
     cells.push_back(best ? output::Cell(fmt::format("{} {} us", best->scheme->name,
-                                                    output::number(1e6 * best->seconds[level]->cost, 3)))
+                                                    microseconds_cell(best->seconds[level]).text))
                          : output::Cell());
   }
   rows_.push_back(std::move(cells));
@@ -76,7 +78,9 @@ output::Table Fastest::table() const {
     table.columns.push_back(
         {fmt::format("fastest_at_{:.0e}", level), fmt::format("{:.0e}", level), output::Align::left});
   table.rows = rows_;
-  table.notes = {"closed forms included where they exist"};
+  table.notes = {
+      "closed forms included where they exist; ≤: already the loosest setting reaches the error, °: "
+      "fewer than two tighter ones confirm it"};
   return table;
 }
 

@@ -11,6 +11,9 @@
 #include "src/study/present.hpp"
 
 namespace gnomon {
+
+using Json = nlohmann::ordered_json;
+
 namespace {
 
 std::vector<std::string> surveyed(const Catalogue& catalogue, const Scene& scene) {
@@ -27,21 +30,27 @@ Scene load(const Catalogue& catalogue, const std::string& name, std::optional<do
 }
 
 /// Steps from a 64th of the motion's time scale to 16 times it, by factors of 2, over 500 time scales or
-/// the long run; an invariant may be off by a hundredth of its scale.
+/// the long run; an invariant may be off by a hundredth of its scale. Where no energy is constant the runs
+/// end with the scene, where the reference is, and its errors may be a hundredth of one that is wrong
+/// altogether: the other invariants hold whatever the step.
 void add_breakings(Runner& runner, SurveyClass& of, output::Progress& progress) {
   const double scale = of.scene.model->time_scale();
-  const Scene scene = load(runner.catalogue(), of.plan.scene, std::min(500.0 * scale, of.plan.t_end));
   StudyOptions options;
+  const bool by_energy = keeps_energy(of.scene);
+  const Scene scene =
+      by_energy ? load(runner.catalogue(), of.plan.scene, std::min(500.0 * scale, of.plan.t_end)) : of.scene;
+  const ReferenceStates reference = by_energy ? ReferenceStates{} : runner.reference(scene, options);
   options.time_limit = 20.0;
   StepSearch search;
   search.first = scale / 64.0;
   search.count = 11;
-  search.survival.max_drift = 0.01;
+  search.survival.max_drift = search.survival.max_error = 0.01;
   std::vector<const SchemeInfo*> schemes;
   for (const SurveyEntry& entry : of.entries) schemes.push_back(entry.scheme);
-  auto found = find_breakings(runner, scene, {}, schemes, search, options, [&](const SchemeInfo& scheme) {
-    progress.begin(fmt::format("{} / {}  larger and larger steps", of.plan.scene, scheme.name));
-  });
+  auto found =
+      find_breakings(runner, scene, reference, schemes, search, options, [&](const SchemeInfo& scheme) {
+        progress.begin(fmt::format("{} / {}  larger and larger steps", of.plan.scene, scheme.name));
+      });
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k]) continue;
     of.entries[k].breaking = std::move(*found[k]);
@@ -80,6 +89,32 @@ void add_drift(Runner& runner, SurveyClass& of, const StudyOptions& options, out
     }
 }
 
+void find_why_not_timed(Runner& runner, const SurveyClass& of, SurveyEntry& entry) {
+  StudyOptions options;
+  options.reference = false;
+  const double t_end = static_cast<double>(entry.timed_steps) * of.plan.step;
+  const Row row = runner.run(load(runner.catalogue(), of.plan.scene, t_end), {}, *entry.scheme,
+                             {of.plan.step, std::nullopt}, options);
+  entry.timed_status = row.result.status;
+  entry.timed_failure = std::string(to_string(row.result.status));
+  if (row.result.status == Status::ok)
+    entry.timed_failure = "no time was measured";
+  else if (!row.result.message.empty())
+    entry.timed_failure += ": " + row.result.message;
+}
+
+/// Of the runs that have no time; empty if all have.
+std::string untimed_note(const Survey& survey) {
+  std::string text;
+  for (const SurveyClass& of : survey.classes)
+    for (const SurveyEntry& entry : of.entries)
+      if (!entry.timed_failure.empty())
+        text += fmt::format("{}{}, {} ({} steps of {:g} s): {}", text.empty() ? "no time of a step: " : "; ",
+                            entry.scheme->name, of.plan.label, entry.timed_steps, of.plan.step,
+                            entry.timed_failure);
+  return text;
+}
+
 void add_times(Runner& runner, std::vector<SurveyClass>& classes, bool quick) {
   std::vector<TimedTask> tasks;
   std::vector<std::string> names;
@@ -105,6 +140,9 @@ void add_times(Runner& runner, std::vector<SurveyClass>& classes, bool quick) {
   if (quick) plan.min_seconds = 0.005;
   const auto stats = runner.time("survey times", {}, names, tasks, plan);
   for (std::size_t k = 0; k < stats.size(); ++k) timed[k]->run = stats[k];
+  for (SurveyClass& of : classes)
+    for (SurveyEntry& entry : of.entries)
+      if (entry.run.repetitions == 0 && !runner.stopped()) find_why_not_timed(runner, of, entry);
 }
 
 /// The schemes of all classes, each once, and its entry in a class if it runs there.
@@ -126,6 +164,10 @@ output::Cell surveyed_order_cell(const SurveyEntry& entry) {
   if (!entry.order.observed && entry.order.finding == OrderFinding::none && entry.declared)
     return output::Cell(fmt::format("— ({:g})", *entry.declared));
   return order_cell(entry.order, entry.declared);
+}
+
+bool evaluates_moments(const SurveyClass& of) {
+  return std::ranges::any_of(of.entries, [](const SurveyEntry& entry) { return entry.cost.moments > 0; });
 }
 
 output::Cell per_step(long count, long steps) {
@@ -196,8 +238,11 @@ output::Table survey_cost_table(const Survey& survey) {
   table.columns = {{"integrator", "integrator", output::Align::left}};
   for (const SurveyClass& of : survey.classes)
     table.columns.push_back({"order_" + of.plan.key(), "order, " + of.plan.label});
-  table.columns.push_back({"rates", "rates a step"});
-  table.columns.push_back({"moments", "moments a step"});
+  for (const SurveyClass& of : survey.classes)
+    table.columns.push_back({"rates_" + of.plan.key(), "rates a step, " + of.plan.label});
+  for (const SurveyClass& of : survey.classes)
+    if (evaluates_moments(of))
+      table.columns.push_back({"moments_" + of.plan.key(), "moments a step, " + of.plan.label});
   for (const SurveyClass& of : survey.classes)
     table.columns.push_back({"ns_" + of.plan.key(), "ns a step, " + of.plan.label});
   for (const SchemeInfo* scheme : schemes_of(survey)) {
@@ -206,15 +251,15 @@ output::Table survey_cost_table(const Survey& survey) {
       const SurveyEntry* entry = entry_of(of, scheme);
       cells.push_back(entry ? surveyed_order_cell(*entry) : output::Cell());
     }
-    // The class with the most work counts: a free body evaluates no moments.
-    output::Cell rates, moments;
-    for (const SurveyClass& of : survey.classes)
-      if (const SurveyEntry* entry = entry_of(of, scheme); entry && entry->cost.steps > 0) {
-        rates = per_step(entry->cost.rhs, entry->cost.steps);
-        moments = per_step(entry->cost.moments, entry->cost.steps);
-      }
-    cells.push_back(rates);
-    cells.push_back(moments);
+    for (const SurveyClass& of : survey.classes) {
+      const SurveyEntry* entry = entry_of(of, scheme);
+      cells.push_back(entry ? per_step(entry->cost.rhs, entry->cost.steps) : output::Cell());
+    }
+    for (const SurveyClass& of : survey.classes) {
+      if (!evaluates_moments(of)) continue;
+      const SurveyEntry* entry = entry_of(of, scheme);
+      cells.push_back(entry ? per_step(entry->cost.moments, entry->cost.steps) : output::Cell());
+    }
     for (const SurveyClass& of : survey.classes) {
       const SurveyEntry* entry = entry_of(of, scheme);
       output::Cell cell;
@@ -231,9 +276,10 @@ output::Table survey_cost_table(const Survey& survey) {
     scenes += fmt::format("{}{}: {}", scenes.empty() ? "" : "; ", of.plan.label, of.plan.scene);
   table.notes = {
       scenes, std::string("order of the first error class; ") + order_marks,
-      "evaluations a step on the last class; times: medians of 5 interleaved runs of 20000 steps (5000 in a "
+      "evaluations a step: of the long runs; times: medians of 5 interleaved runs of 20000 steps (5000 in a "
       "quick study), one core",
       unstable_note};
+  if (const std::string note = untimed_note(survey); !note.empty()) table.notes.push_back(note);
   return table;
 }
 
@@ -275,8 +321,10 @@ output::Table survey_stability_table(const Survey& survey) {
       "off by 1 % at: the first of the steps 2^k times the motion's time scale (the inverse of its "
       "largest rate), "
       "k = -6 .. 4, upwards, that does not end well over 500 time scales (at most the long run, at "
-      "least 100 steps) or changes an invariant by a hundredth of its scale; a step survives, as "
-      "the scorecard has it, up to a half of the scale"};
+      "least 100 steps) or changes an invariant by a hundredth of its scale; where no energy is constant, of "
+      "runs to the end of the scene, or whose error there is a hundredth of that of a result that is wrong "
+      "altogether; a step survives, as the scorecard has it, up to a half",
+      verdict_marks};
   return table;
 }
 
@@ -313,6 +361,8 @@ nlohmann::ordered_json survey_json(const Survey& survey) {
       item["largest_step_within_1_percent"] = number(entry.breaking.survived);
       item["off_by_1_percent_at"] = number(entry.breaking.breaks.value_or(std::nan("")));
       item["off_how"] = entry.breaking.how;
+      item["timed_status"] = entry.timed_steps > 0 ? Json(to_string(entry.timed_status)) : Json(nullptr);
+      item["untimed_because"] = entry.timed_failure.empty() ? Json(nullptr) : Json(entry.timed_failure);
       item["ns_a_step"] = entry.timed_steps > 0
                               ? number(1e9 * entry.run.median / static_cast<double>(entry.timed_steps))
                               : nullptr;

@@ -25,7 +25,9 @@ struct SurveyEntry {
   std::vector<std::string> held;  ///< invariants that it keeps to roundoff
   std::optional<Drift> energy;
   Breaking breaking;
-  TimingStats run;  ///< of the timed run, s
+  TimingStats run;                   ///< of the timed run, s
+  Status timed_status = Status::ok;  ///< of that run
+  std::string timed_failure;         ///< why it has no time
   long timed_steps = 0;
 };
 
@@ -43,7 +45,8 @@ struct Survey {
 };
 
 /// Every scheme of equal steps on one scene of each class: order, cost, invariants, drift of the energy, and
-/// the step at which it is off by 1 %; beside them those that choose their steps and the closed forms.
+/// the step at which it is off by 1 %, in an invariant or, where no energy is constant, in its errors; beside
+/// them those that choose their steps and the closed forms.
 Survey survey(Runner& runner, const std::string& model, const std::vector<SurveyPlan>& plans,
               const StudyOptions& options, output::Progress& progress);
 

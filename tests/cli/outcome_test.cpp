@@ -53,8 +53,8 @@ TEST_CASE("cli: compare writes its tables and figures of every scene and leaves 
   CHECK(all["runs"].size() == 8);
   CHECK(all["costs"].size() == 2 * 2 * 11);
   for (const Json& cost : all["costs"]) {
-    CHECK(keys_of(cost) ==
-          Keys{"scene", "integrator", "metric", "error", "cpu_seconds", "rhs", "upper_bound"});
+    CHECK(keys_of(cost) == Keys{"scene", "integrator", "metric", "error", "cpu_seconds", "rhs", "upper_bound",
+                                "few_settings"});
     CHECK(cost["cpu_seconds"].is_null() == cost["rhs"].is_null());
   }
   // Errors of two settings are known: what lies between them costs something between, what is looser no more

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/measure/drift_scaling.hpp"
 #include "tests/catch.hpp"
 
 using gnomon::allow_newton_residue;
@@ -16,6 +17,7 @@ using gnomon::Drift;
 using gnomon::DriftVerdict;
 using gnomon::jittered_times;
 using gnomon::measure_drift;
+using gnomon::rounding_level;
 using gnomon::why_undecided;
 
 namespace {
@@ -24,11 +26,11 @@ constexpr double span = 1000.0;
 const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <class Function>
-Drift drift_of(Function error, int samples = 2000) {
+Drift drift_of(Function error, int samples = 2000, double rounding = rounding_level(0.0)) {
   const std::vector<double> times = jittered_times(0.0, span, samples, 7);
   std::vector<double> errors;
   for (const double t : times) errors.push_back(error(t));
-  return measure_drift(times, errors, 0.0);
+  return measure_drift(times, errors, 0.0, rounding);
 }
 
 template <class Function>
@@ -38,7 +40,8 @@ std::string verdict_of(Function error, int samples = 2000) {
 
 // x <- memory x + step * normal, ten times between two samples, and a line that ends at `trend`. A random
 // walk with memory 1.
-Drift drift_of_walk(double step, double trend, unsigned seed, double memory = 1.0) {
+Drift drift_of_walk(double step, double trend, unsigned seed, double memory = 1.0,
+                    double rounding = rounding_level(0.0)) {
   std::mt19937_64 random(seed);
   const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   const std::vector<double> times = jittered_times(0.0, span, 1000, seed);
@@ -52,7 +55,7 @@ Drift drift_of_walk(double step, double trend, unsigned seed, double memory = 1.
     }
     errors.push_back(walk + trend * t / span);
   }
-  return measure_drift(times, errors, 0.0);
+  return measure_drift(times, errors, 0.0, rounding);
 }
 
 struct Pendulum {
@@ -109,18 +112,17 @@ TEST_CASE("measure: offsets and slopes small against the oscillation are bounded
   CHECK(verdict_of([](double t) { return 1e-3 * (1.0 - std::cos(t) + 0.5 * t / span); }) == "bounded");
   CHECK(verdict_of([](double t) { return 1e-3 * std::sin(0.05 * t); }) == "bounded");
   CHECK(verdict_of([](double) { return 0.01; }) == "bounded");
-  CHECK(verdict_of([](double) { return -1e5; }) == "bounded");
-  CHECK(verdict_of([](double t) { return t < 600.0 ? 1.0 : std::nextafter(1.0, 2.0); }) == "bounded");
-  CHECK(verdict_of([](double t) { return 1.0 + 1e-14 * t / span; }) ==
-        "bounded");  // a trend of rounding size
+  CHECK(verdict_of([](double t) { return t < 600.0 ? 0.0625 : std::nextafter(0.0625, 2.0); }) == "bounded");
+  // A trend of rounding size.
+  CHECK(verdict_of([](double t) { return 0.0625 + 1e-14 * t / span; }) == "bounded");
 }
 
 TEST_CASE("measure: forty samples are enough for most oscillations") {
   int bounded = 0;
   for (int k = 0; k < 200; ++k) {
     const double frequency = 0.05 * std::pow(10.0, k / 100.0);
-    bounded +=
-        drift_of([&](double t) { return std::sin(frequency * t + k); }, 40).verdict == DriftVerdict::bounded;
+    bounded += drift_of([&](double t) { return 1e-3 * std::sin(frequency * t + k); }, 40).verdict ==
+               DriftVerdict::bounded;
   }
   INFO("bounded " << bounded);
   CHECK(bounded >= 190);
@@ -169,18 +171,24 @@ TEST_CASE("measure: a transient that dies away is bounded, one that goes on is n
 }
 
 TEST_CASE("measure: a random walk of rounding errors is roundoff, with a real trend it is secular") {
-  int roundoff = 0, secular = 0;
+  int roundoff = 0, secular = 0, too_large = 0;
   double growth = 0.0;
   for (unsigned seed = 1; seed <= 200; ++seed) {
-    const Drift walk = drift_of_walk(1e-14, 0.0, seed);
+    // As many roundings of u as make this walk of ten thousand steps.
+    const double level = rounding_level(1e4 * std::pow(1e-14 / std::numeric_limits<double>::epsilon(), 2));
+    const Drift walk = drift_of_walk(1e-14, 0.0, seed, 1.0, level);
     roundoff += walk.verdict == DriftVerdict::roundoff;
     growth += walk.growth / 200.0;
-    secular += drift_of_walk(1e-14, 1e-11, seed).verdict == DriftVerdict::secular;  // ten times the walk
+    // Ten times the walk.
+    secular += drift_of_walk(1e-14, 1e-11, seed, 1.0, level).verdict == DriftVerdict::secular;
+    // Of fewer evaluations it is no rounding.
+    too_large += drift_of_walk(1e-14, 0.0, seed).verdict != DriftVerdict::roundoff;
   }
   INFO("roundoff " << roundoff << " growth " << growth);
   CHECK(roundoff >= 190);
   CHECK(std::abs(growth - 0.5) <= 0.1);
   CHECK(secular == 200);
+  CHECK(too_large == 200);
   // Far below the level of rounding nothing else is possible.
   for (unsigned seed = 1; seed <= 20; ++seed)
     CHECK(drift_of_walk(1e-16, 0.0, seed).verdict == DriftVerdict::roundoff);
@@ -236,7 +244,7 @@ TEST_CASE("measure: too few samples or too slow an oscillation leave the questio
   CHECK(std::isnan(few.growth));
   // One period in the whole run, and half of a saturation.
   CHECK(verdict_of([](double t) { return 1e-3 * (1.0 - std::cos(6.283185307 * t / span)); }) == "undecided");
-  CHECK(verdict_of([](double t) { return 1.0 - std::exp(-10.0 * t / span); }) == "undecided");
+  CHECK(verdict_of([](double t) { return 1e-3 * (1.0 - std::exp(-10.0 * t / span)); }) == "undecided");
 }
 
 TEST_CASE("measure: the order of the samples and the start of the clock do not matter") {
@@ -314,7 +322,7 @@ TEST_CASE("measure: energy lost and not regained is dissipated once the loss lev
   CHECK(verdict_of(ripple(0.2)) != "secular");
   // A gain is not a loss, nor is what was off from the start, nor a random walk.
   CHECK(verdict_of([](double t) { return 0.9 * (1.0 - std::exp(-20.0 * t / span)); }) != "dissipated");
-  CHECK(verdict_of([](double) { return -0.9; }) == "bounded");
+  CHECK(verdict_of([](double) { return -0.09; }) == "bounded");
   int lost = 0;
   for (unsigned seed = 1; seed <= 200; ++seed)
     lost += drift_of_walk(1e-6, 0.0, seed).verdict == DriftVerdict::dissipated;
@@ -332,9 +340,10 @@ TEST_CASE("measure: growth of a random walk alone is not secular") {
   CHECK(secular <= 20);
   CHECK(bounded <= 60);
   // A jump in the middle has alpha > 1 and no slope beyond its own error.
-  const Drift jump = drift_of([](double t) { return 2e-13 * (t > 0.6 * span ? 1.0 : 0.1) * std::sin(t); });
-  CHECK(jump.growth > 0.2);
-  CHECK(jump.verdict == DriftVerdict::roundoff);
+  const auto jump = [](double t) { return 2e-13 * (t > 0.6 * span ? 1.0 : 0.1) * std::sin(t); };
+  CHECK(drift_of(jump).growth > 0.2);
+  CHECK(drift_of(jump).verdict == DriftVerdict::undecided);
+  CHECK(drift_of(jump, 2000, rounding_level(1e5)).verdict == DriftVerdict::roundoff);
 }
 
 TEST_CASE("measure: an error that returns to its line is bounded though its maximum creeps up") {
@@ -355,7 +364,7 @@ TEST_CASE("measure: undecided drifts say why, others do not") {
   const Drift slow = drift_of([](double t) { return 1e-3 * (1.0 - std::cos(6.283185307 * t / span)); });
   CHECK(why_undecided(slow).find("a longer run would tell") != std::string::npos);
   CHECK(why_undecided(drift_of([](double t) { return 1e-6 * t; })).empty());
-  CHECK(why_undecided(drift_of([](double t) { return std::sin(t); })).empty());
+  CHECK(why_undecided(drift_of([](double t) { return 1e-2 * std::sin(t); })).empty());
 }
 
 TEST_CASE("measure: what Newton's tolerance leaves is told from a drift, up to that tolerance") {
@@ -370,4 +379,57 @@ TEST_CASE("measure: what Newton's tolerance leaves is told from a drift, up to t
   Drift bounded = drift_of([](double t) { return 1e-11 * std::sin(t); });
   allow_newton_residue(bounded, 1e-10);
   CHECK(bounded.verdict == DriftVerdict::bounded);
+}
+
+TEST_CASE("measure: rounding grows like a random walk of the evaluations") {
+  CHECK(rounding_level(0.0) == 1e-13);
+  CHECK(rounding_level(1e4) == 1e-13);
+  CHECK(std::abs(rounding_level(1e6) - 4.0 * 0x1p-52 * 1e3) <= 1e-27);
+  CHECK(std::abs(rounding_level(4e8) / rounding_level(1e8) - 2.0) <= 1e-12);
+  // A truncation error of 4e4 evaluations is none, whether it oscillates or not, nor one that a tolerance
+  // made.
+  const auto verdict = [](double size, double evaluations) {
+    return drift_of([=](double t) { return size * std::sin(t); }, 2000, rounding_level(evaluations)).verdict;
+  };
+  CHECK(verdict(1.25e-12, 4e4) == DriftVerdict::bounded);
+  CHECK(verdict(2.29e-11, 4e4) == DriftVerdict::bounded);
+  CHECK(verdict(2.9e-10, 5e5) == DriftVerdict::bounded);
+  CHECK(verdict(1.7e-13, 4e4) == DriftVerdict::roundoff);
+  CHECK(verdict(1.9e-13, 4e4) == DriftVerdict::bounded);
+}
+
+TEST_CASE("measure: an energy that went as far as it can is saturated, one far away is not bounded") {
+  const auto rises = [](double size, double rate) {
+    return [=](double t) { return size * std::tanh(rate * t / span) * (1.0 + 0.05 * std::sin(t)); };
+  };
+  CHECK(verdict_of(rises(0.09, 10.0)) == "saturated");
+  CHECK(verdict_of(rises(0.9, 10.0)) == "saturated");
+  CHECK(verdict_of(rises(0.005, 10.0)) != "saturated");  // small against its scale
+  CHECK(verdict_of(rises(0.09, 1e6)) == "bounded");      // there from the first sample on
+  CHECK(verdict_of(rises(0.9, 1e6)) == "far off");
+  CHECK(verdict_of([](double t) { return 0.3 * std::sin(t); }) == "far off");
+  CHECK(verdict_of([](double t) { return 0.09 * std::sin(t); }) == "bounded");
+  CHECK(verdict_of([](double) { return 30.0; }) == "far off");
+  CHECK(verdict_of([](double) { return -0.9; }) == "far off");
+  CHECK(verdict_of([](double t) { return 1e-4 * t; }) == "secular");
+  // A slow oscillation comes back.
+  CHECK(verdict_of([](double t) { return 0.05 * (1.0 - std::cos(12.0 * t / span)); }) != "saturated");
+  CHECK(verdict_of([](double) { return 0.5; }, 5) == "far off");
+}
+
+TEST_CASE("measure: a second step tells biased rounding from truncation") {
+  const auto runs = [](double coarse, double fine, double evaluations, bool iterates = false) {
+    const auto line = [](double size) { return drift_of([=](double t) { return size * t / span; }); };
+    std::vector<gnomon::DriftAtStep> list{{0.1, line(coarse), evaluations, iterates},
+                                          {0.05, line(fine), 2.0 * evaluations, iterates}};
+    gnomon::tell_rounding(list);
+    return list[0].drift.verdict;
+  };
+  CHECK(runs(1e-11, 2e-11, 1e6) == DriftVerdict::roundoff);
+  CHECK(runs(1e-11, 1e-11, 1e6) == DriftVerdict::roundoff);
+  CHECK(runs(1e-11, 2.5e-12, 1e6) == DriftVerdict::secular);  // order 2
+  CHECK(runs(1e-11, 5e-12, 1e6) == DriftVerdict::secular);    // order 1
+  CHECK(runs(1e-11, 2e-11, 1e4) == DriftVerdict::secular);    // more than one rounding an evaluation
+  CHECK(runs(1e-11, 2e-11, 1e6, true) == DriftVerdict::newton);
+  CHECK(runs(1e-11, 2.5e-12, 1e6, true) == DriftVerdict::secular);
 }

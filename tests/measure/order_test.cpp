@@ -463,3 +463,21 @@ TEST_CASE("measure: errors at roundoff at every step are exact, or hide a declar
   for (OrderPoint& point : points) point.error *= 1e6;
   CHECK(observe_order(points, options).finding == OrderFinding::none);
 }
+
+TEST_CASE("measure: slopes that come closer to the declared order until roundoff approach it") {
+  const std::vector<double> roundoff{-0.8, -1.2, -3.3, 0.0, 2.1, -1.1, -2.5, 1.2};
+  const auto finding = [&](double first, std::vector<double> slopes, double declared) {
+    slopes.insert(slopes.end(), roundoff.begin(), roundoff.end());
+    OrderOptions options = with_scale_one();
+    options.declared = declared;
+    const ObservedOrder order = observe_order(from_errors(falling(first, slopes)), options);
+    CHECK_FALSE(order.observed);
+    return order.finding;
+  };
+  CHECK(finding(4e-4, {10.0, 9.3, 8.6, 8.2}, 8.0) == OrderFinding::approaching);
+  CHECK(finding(4e-6, {9.2, 8.24, 8.02}, 8.0) == OrderFinding::approaching);
+  CHECK(finding(4e-4, {10.0, 9.3, 8.6, 8.2}, 6.0) == OrderFinding::none);  // not close
+  CHECK(finding(4e-4, {10.0, 8.2, 9.3, 8.6}, 8.0) == OrderFinding::none);  // to and fro
+  CHECK(finding(4e-4, {10.0, 9.3}, 8.0) == OrderFinding::none);            // too few
+  CHECK(finding(0.05, {5.0, 4.6, 4.3, 4.05}, 4.0) == OrderFinding::none);  // far above roundoff
+}

@@ -98,3 +98,12 @@ TEST_CASE("measure: the Pareto front keeps what nothing else beats") {
   CHECK(pareto_front(points) == std::vector<bool>{true, true, false, false, true, true, false, false});
   CHECK(pareto_front({}).empty());
 }
+
+TEST_CASE("measure: a cost that rests on fewer than three settings says so") {
+  const std::vector<WorkPoint> curve{{1e-2, 1.0}, {1e-4, 2.0}, {1e-6, 4.0}, {1e-8, 8.0}};
+  const auto few = [&](double level) { return gnomon::level_cost(curve, level).value().few; };
+  CHECK_FALSE(few(1e-2));
+  CHECK_FALSE(few(1e-4));
+  CHECK(few(1e-6));
+  CHECK(few(1e-8));
+}

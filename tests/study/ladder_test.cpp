@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "src/run.hpp"
+#include "src/study/compare.hpp"
 #include "src/study/study.hpp"
 #include "tests/catch.hpp"
 #include "tests/example/pendulum.hpp"
@@ -64,4 +65,23 @@ TEST_CASE("study: schemes of order 6 and more begin at steps eight times as larg
   SchemeInfo other = scheme_of_order(8.0);
   other.orders = {{{"none", 8.0}}};
   CHECK(step_ladder(scene, other, 5, 0.5).front() == usual);
+}
+
+TEST_CASE("study: looser settings halve the number of steps and meet the breaks", "[study]") {
+  const auto counts = [](const Scene& scene, long from) {
+    std::vector<long> list;
+    std::optional<Setting> setting = Setting{scene.t_end / static_cast<double>(from), std::nullopt};
+    while ((setting = looser(scene, *setting))) list.push_back(std::lround(scene.t_end / *setting->step));
+    return list;
+  };
+  CHECK(counts(jerked_scene(9.0, 100.0), 18) == std::vector<long>{9, 4, 2, 1});
+  CHECK(counts(jerked_scene(9.0, 3.0), 18) == std::vector<long>{9, 3});
+  CHECK(counts(jerked_scene(9.0, std::sqrt(2.0)), 8) == std::vector<long>{4, 2, 1});
+  const auto tol = [](double from) {
+    const auto next = looser(jerked_scene(9.0, 100.0), {std::nullopt, from});
+    return next ? next->tol.value() : 0.0;
+  };
+  CHECK(std::abs(tol(1e-3) - 1e-2) <= 1e-12);
+  CHECK(tol(0.03) == 0.1);
+  CHECK(tol(0.1) == 0.0);
 }
