@@ -32,6 +32,8 @@ struct ModelEntry {
   ParsedModel (*read)(Section& root, double t_end);
   std::span<const std::string_view>
       loads{};  ///< the kinds of `[load]`, where a scene has one load by its kind
+  /// Keys of a scene by which its mesh is made finer, as "beam.elements"; none of a model without a mesh.
+  std::span<const std::string_view> mesh{};
 };
 
 /// One valid pair of scheme and model type.

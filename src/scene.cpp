@@ -205,11 +205,12 @@ Scene load_scene(const Catalogue& catalogue, const std::string& name_or_path, co
   ParsedModel parsed = entry->read(root, scene.t_end);
   root.finish();
   scene.model = parsed.model;
-  // More steps than this no scheme can take, and they could not be counted exactly.
-  if (const double span = scene.t_end / scene.model->time_scale(); !(span <= 1e15)) {
+  // More steps than this no scheme can take, and they could not be counted exactly; in much shorter a time
+  // than that nothing moves, and squares of steps vanish.
+  if (const double span = scene.t_end / scene.model->time_scale(); !(span <= 1e15 && span >= 1e-100)) {
     const std::string found =
         fmt::format("{:g} s, {:.3g} times the time scale of the motion", scene.t_end, span);
-    const char* expected = "at most 1e15 times";
+    const char* expected = span < 1.0 ? "at least 1e-100 times" : "at most 1e15 times";
     if (changes.t_end) throw UsageError(fmt::format("--t-end: found {}, expected {}", found, expected));
     root.fail("t_end", found, expected);
   }

@@ -21,14 +21,18 @@ using Table = Section;
 
 std::array<double, 2> pair(const std::vector<double>& v) { return {v[0], v[1]}; }
 
+/// Where a joint may be.
+std::string place_of(const Data& data, std::string_view behind) {
+  return fmt::format("a multiple of {:.6g} m, where two elements meet, inside the beam of {:.6g} m{}",
+                     data.length / data.elements, data.length, behind);
+}
+
 /// Rigid joints, each where two elements meet.
 Json read_bends(Table& beam, Data& data) {
   Json resolved = Json::array();
   for (Table& table : beam.sections("bends")) {
     table.only({"at", "angle"});
-    const std::string meeting =
-        fmt::format("a multiple of {:.6g} m, where two elements meet, behind the bend before it",
-                    data.length / data.elements);
+    const std::string meeting = place_of(data, data.bends.empty() ? "" : ", behind the bend before it");
     Bend bend{};
     bend.at = table.number("at", meeting);
     if (!is_meeting(bend.at, data) || (!data.bends.empty() && !(data.bends.back().at < bend.at)))
@@ -47,9 +51,7 @@ Json read_hinges(Table& beam, Data& data) {
   Json resolved = Json::array();
   for (Table& table : beam.sections("hinges")) {
     table.only({"at", "spring"});
-    const std::string meeting =
-        fmt::format("a multiple of {:.6g} m, where two elements meet, behind the hinge before it",
-                    data.length / data.elements);
+    const std::string meeting = place_of(data, data.hinges.empty() ? "" : ", behind the hinge before it");
     Hinge hinge{};
     hinge.at = table.number("at", meeting);
     if (!is_meeting(hinge.at, data) || (!data.hinges.empty() && !(data.hinges.back().at < hinge.at)))

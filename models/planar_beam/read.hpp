@@ -1,10 +1,15 @@
 #pragma once
+#include <array>
+#include <string_view>
+
 #include "src/catalogue.hpp"
 
 namespace gnomon::planar_beam {
 
 /// Reads `[beam]`, `[initial]`, `[supports]` and `[[loads]]` of a scene.
 ParsedModel read(Section& root, double t_end);
+
+inline constexpr std::array<std::string_view, 1> mesh_keys{"beam.elements"};
 
 inline constexpr ModelEntry entry{
     .name = "planar_beam",
@@ -15,6 +20,7 @@ inline constexpr ModelEntry entry{
         "notation "
         "of E. and D. Zupan, Nonlinear Dynamics 95 (2019) 1379-1394",
     .read = read,
+    .mesh = mesh_keys,
 };
 
 }  // namespace gnomon::planar_beam

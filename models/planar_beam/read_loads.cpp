@@ -42,7 +42,8 @@ void read_place(Section& table, const Data& data, Load& load, Json& resolved) {
   const std::vector<std::string> places{"start", "end", "distributed"};
   if (table.is_number("at")) {
     const std::string meeting =
-        fmt::format("a multiple of {:.6g} m, where two elements meet", data.length / data.elements);
+        fmt::format("a multiple of {:.6g} m, where two elements meet, inside the beam of {:.6g} m",
+                    data.length / data.elements, data.length);
     load.at = Place::inside;
     load.x = table.number("at", meeting);
     if (!is_meeting(load.x, data)) table.fail("at", table.shown("at"), meeting);

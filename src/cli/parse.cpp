@@ -124,8 +124,8 @@ constexpr Command commands[] = {
     {"static", "SCENE [--load-steps N] [--arc-length]",
      "equilibrium under the loads by Newton's method, from no load on", &scene, "kKaxnjcQ", statics},
     {"survey", "[MODEL..] [--quick]",
-     "all schemes of a model: order, cost, invariants, what is too large a step", &model_name,
-     "xlJjcLoRMqQ", survey},
+     "all schemes of a model: order, cost, invariants, what is too large a step", &model_name, "xlJjcLoRMqQ",
+     survey},
     {"reference", "SCENE.. [--t-end T] [--fresh]",
      "the reference solution: kind, methods, bounds of its error, state at the end; a certified one is kept "
      "beside its scene",

@@ -132,6 +132,9 @@ int run(Context& context) {
   const Setting setting = read_setting(scheme, options);
   check_scheme_options(context, {study.scene}, options);
   warn({study.scene});
+  if (setting.step && *setting.step > study.scene.t_end * (1.0 + 1e-9) && !request.quiet)
+    std::cerr << fmt::format("gnomon: --step: {:g} s is longer than the run, which is one step of {:g} s\n",
+                             *setting.step, study.scene.t_end);
 
   ReferenceStore references(reference_folder(), true);
   Runner runner(context.catalogue, references, context.stop);

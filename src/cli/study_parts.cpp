@@ -127,8 +127,7 @@ void PartMaker::plan(const StudyPlan& study, const std::string& model, std::vect
                      [=, this](output::Progress& progress) { return make_refine(plan, progress); }});
   if (!study.survey.empty())
     parts.push_back(
-        {model + "-survey", "All schemes",
-         survey_runs(context_.catalogue, study.survey, session_.quick),
+        {model + "-survey", "All schemes", survey_runs(context_.catalogue, study.survey, session_.quick),
          [=, this](output::Progress& progress) { return make_survey(model, study, options, progress); }});
   if (!options.timing) return;
   if (!study.speed.empty())

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/measure/work.hpp"
@@ -26,42 +27,51 @@ std::vector<Setting> work_ladder(const Scene& scene, const SchemeInfo& scheme, c
   return settings(scheme, options, steps, default_tols(options.quick));
 }
 
-/// Errors against one of the costs; not what a limit stopped.
-template <class CostOf>
-std::vector<WorkPoint> curve_of(const Comparison& study, const SchemeInfo& scheme, CostOf&& cost_of_row) {
+/// Errors against the cost by which the setting for a level is chosen, CPU time where the study is timed and
+/// else evaluations, and beside them both costs of the same settings.
+struct Costs {
   std::vector<WorkPoint> curve;
+  std::vector<double> seconds, evaluations;
+};
+
+bool is_timed(const Comparison& study) {
+  return std::ranges::any_of(study.rows, [](const Row& row) { return row.timing.has_value(); });
+}
+
+/// Of the runs that say something: not of those that a limit stopped or that were left untimed.
+Costs ladder_of(const Comparison& study, const SchemeInfo& scheme) {
+  const bool timed = is_timed(study);
+  Costs costs;
   for (const Row& row : study.rows) {
-    if (row.scheme != &scheme || row.result.status == Status::time_limit ||
-        row.result.status == Status::step_limit)
-      continue;
-    const std::optional<double> cost = cost_of_row(row);
-    if (cost) curve.push_back({row.error.empty() ? std::nan("") : row.error[0], *cost});
+    const Status status = row.result.status;
+    if (row.scheme != &scheme || status == Status::time_limit || status == Status::step_limit) continue;
+    if (timed && status == Status::ok && !row.timing) continue;
+    const auto evaluations = static_cast<double>(row.evaluations());
+    const double seconds = row.timing ? row.timing->median : std::nan("");
+    costs.curve.push_back({row.error.empty() ? std::nan("") : row.error[0], timed ? seconds : evaluations});
+    costs.seconds.push_back(seconds);
+    costs.evaluations.push_back(evaluations);
   }
-  return curve;
-}
-std::optional<double> seconds_of(const Row& row) {
-  return row.timing ? std::optional(row.timing->median) : std::nullopt;
-}
-std::optional<double> evaluations_of(const Row& row) {
-  return row.evaluations() > 0 ? std::optional(static_cast<double>(row.evaluations())) : std::nullopt;
+  return costs;
 }
 
 }  // namespace
 
 CostRow costs_of(const Comparison& study, const SchemeInfo& scheme, const std::vector<double>& levels) {
-  const auto seconds = curve_of(study, scheme, seconds_of),
-             evaluations = curve_of(study, scheme, evaluations_of);
-  CostRow cost{&scheme, {}, {}};
-  for (double level : levels) {
-    cost.seconds.push_back(level_cost(seconds, level));
-    cost.evaluations.push_back(level_cost(evaluations, level));
+  const Costs costs = ladder_of(study, scheme);
+  CostRow row{&scheme, {}, {}};
+  for (const double level : levels) {
+    auto setting = level_setting(costs.curve, level);
+    // A closed form has one setting and no looser one.
+    if (setting && scheme.stepping == Stepping::closed_form) setting->upper_bound = setting->few = false;
+    const auto there = [&](const std::vector<double>& list) -> std::optional<LevelCost> {
+      if (!setting || !(list[setting->place] > 0.0)) return std::nullopt;
+      return cost_there(*setting, list);
+    };
+    row.seconds.push_back(there(costs.seconds));
+    row.evaluations.push_back(there(costs.evaluations));
   }
-  // A closed form has one setting and no looser one.
-  if (scheme.stepping == Stepping::closed_form)
-    for (auto* costs : {&cost.seconds, &cost.evaluations})
-      for (std::optional<LevelCost>& each : *costs)
-        if (each) each->upper_bound = each->few = false;
-  return cost;
+  return row;
 }
 
 namespace {
@@ -69,8 +79,9 @@ namespace {
 /// Sought at twenty levels a decade.
 std::vector<Cheapest> cheapest_of(const Comparison& study) {
   std::vector<Cheapest> list;
+  if (!is_timed(study)) return list;
   std::vector<std::vector<WorkPoint>> curves;
-  for (const CostRow& cost : study.costs) curves.push_back(curve_of(study, *cost.scheme, seconds_of));
+  for (const CostRow& cost : study.costs) curves.push_back(ladder_of(study, *cost.scheme).curve);
   for (int k = 20; k <= 240; ++k) {
     const double level = std::pow(10.0, -0.05 * k);
     const SchemeInfo* best = nullptr;

@@ -16,8 +16,9 @@ std::string reference_line(const SceneStudy& study);
 /// How the cost of a level is found, for a note.
 inline constexpr const char* levels_note =
     "the cheapest setting that counts: it and the next two tighter ones reach the level; log-log to the next "
-    "looser one, ≤: already the loosest one reaches it; °: there are fewer than two tighter ones; — not "
-    "reached";
+    "looser one, ≤: it is the loosest one, or the next looser one failed; °: there are fewer than two "
+    "tighter "
+    "ones; the rates are those of the setting that is cheapest in CPU time; — not reached";
 
 /// Inserts a column with the linear solver that was asked for, where it is not the default; `schemes` are
 /// those of the rows.

@@ -1,6 +1,7 @@
 #include "src/study/refine.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,30 @@ Scene mesh(const Catalogue& catalogue, const RefinePlan& plan, double value) {
   SceneChanges changes = plan.changes;
   changes.set.push_back(fmt::format("{}={:.17g}", plan.key, value));
   return load_scene(catalogue, plan.scene, changes);
+}
+
+/// Only what makes the mesh finer goes to a limit.
+void check_key(const Catalogue& catalogue, const RefinePlan& plan) {
+  const Scene scene = load_scene(catalogue, plan.scene, plan.changes);
+  const auto entry = std::ranges::find(catalogue.models, scene.model_name, &ModelEntry::name);
+  if (!scene.model->has_field() || entry == catalogue.models.end() || entry->mesh.empty())
+    throw UsageError(fmt::format("--refine: found scene '{}' of model {}, expected a model with a mesh",
+                                 scene.name, scene.model_name));
+  if (std::ranges::find(entry->mesh, plan.key) == entry->mesh.end())
+    throw UsageError(fmt::format("--refine: found the key '{}', expected one that makes the mesh finer: {}",
+                                 plan.key, fmt::join(entry->mesh, ", ")));
+}
+
+/// The meshes that the last one is compared with.
+Scene finer_mesh(const Catalogue& catalogue, const RefinePlan& plan, double factor) {
+  try {
+    return mesh(catalogue, plan, factor * plan.values.back());
+  } catch (const UsageError& error) {
+    throw UsageError(
+        fmt::format("--refine: found {} = {:g}, expected one of which {:g} times as much can be made to "
+                    "compare with ({})",
+                    plan.key, plan.values.back(), factor, error.what()));
+  }
 }
 
 /// The one scheme that integrates on all meshes, and its setting.
@@ -81,6 +106,7 @@ std::size_t refine_runs(const RefinePlan& plan) { return 2 * plan.values.size() 
 
 Refinement refine(Runner& runner, const RefinePlan& plan, const StudyOptions& options,
                   output::Progress& progress) {
+  check_key(runner.catalogue(), plan);
   Refinement study;
   study.key = plan.key;
   study.values = plan.values;
@@ -88,11 +114,8 @@ Refinement refine(Runner& runner, const RefinePlan& plan, const StudyOptions& op
   study.finest = 4.0 * last;
   std::vector<Scene> scenes;
   for (double value : plan.values) scenes.push_back(mesh(runner.catalogue(), plan, value));
-  for (double factor : {2.0, 4.0}) scenes.push_back(mesh(runner.catalogue(), plan, factor * last));
+  for (double factor : {2.0, 4.0}) scenes.push_back(finer_mesh(runner.catalogue(), plan, factor));
   const AnyModel& model = *scenes.front().model;
-  if (!model.has_field())
-    throw UsageError(fmt::format("--refine: found scene '{}' of model {}, expected a model with a mesh",
-                                 scenes.front().name, scenes.front().model_name));
   study.setting = choose(runner.catalogue(), scenes.front(), options, study.scheme);
 
   const std::vector<double> at = places();

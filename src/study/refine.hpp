@@ -6,7 +6,8 @@
 
 namespace gnomon {
 
-/// Meshes of one scene: a number of the scene file, such as beam.elements, takes each of the values.
+/// Meshes of one scene: a key of its mesh (ModelEntry::mesh), such as beam.elements, takes each of the
+/// values.
 struct RefinePlan {
   std::string scene;
   SceneChanges changes;
@@ -30,8 +31,8 @@ struct Refinement {
   bool interrupted = false;
 };
 
-/// Throws UsageError if the key cannot take the values, if the model has no field, or if there is not exactly
-/// one scheme and setting. Without any, cvode-bdf at the tolerance 1e-8.
+/// Throws UsageError if the key is none of the mesh or cannot take the values, if the model has no field, or
+/// if there is not exactly one scheme and setting. Without any, cvode-bdf at the tolerance 1e-8.
 Refinement refine(Runner& runner, const RefinePlan& plan, const StudyOptions& options,
                   output::Progress& progress);
 std::size_t refine_runs(const RefinePlan& plan);

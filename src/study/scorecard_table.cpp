@@ -243,11 +243,11 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
   table.notes.push_back("scenes: " + scenes + "; in brackets on how many of them, where not on all");
   table.notes.push_back(fmt::format(
       "{} to an error: times the least of the schemes that step, geometric mean over the scenes, all of "
-      "which "
-      "have to reach it; ≤: on one of them already the loosest setting reaches it, ≥: that of the scheme "
-      "with "
-      "the least, ≈: both; °: fewer than two tighter settings confirm it; — not reached, in brackets on how "
-      "many scenes it is",
+      "which have to reach it; ≤: on one of them already the loosest setting that ended well reaches it, ≥: "
+      "that "
+      "of the scheme with the least, ≈: both; °: fewer than two tighter settings confirm it; — not reached, "
+      "in "
+      "brackets on how many scenes it is",
       what));
   table.notes.push_back(std::string("order: ") + order_marks);
   add_undecided(table, cards);
@@ -307,8 +307,8 @@ output::Table scorecard_table(const Scorecard& card) {
   }
   table.notes.push_back(reference_line(card.comparison));
   table.notes.push_back(
-      fmt::format("order and cost of the {} error at t = {:g} s; ≤: already the loosest setting reaches the "
-                  "level; °: fewer than two tighter ones confirm it; — not reached",
+      fmt::format("order and cost of the {} error at t = {:g} s; ≤: already the loosest setting that ended "
+                  "well reaches the level; °: fewer than two tighter ones confirm it; — not reached",
                   metric.name, scene.t_end));
   table.notes.push_back(std::string("order: ") + order_marks);
   table.notes.push_back(fmt::format("energy to t = {:g} s at a step of {:.3g} s or a tolerance of 1e-8",

@@ -142,6 +142,12 @@ std::string study_text(const std::string& path) {
   }
 }
 
+bool StudyPlan::empty() const {
+  return converge.empty() && quick_converge.empty() && compare.empty() && quick_compare.empty() &&
+         scorecard.empty() && quick_scorecard.empty() && drift.empty() && work.empty() && speed.empty() &&
+         survey.empty() && peers.empty() && vary.empty() && refine.empty();
+}
+
 StudyPlan read_study(const std::string& path, const Catalogue* catalogue) {
   return read_study_text(study_text(path), path, catalogue);
 }
@@ -265,6 +271,12 @@ StudyPlan read_study_text(const std::string& text, const std::string& path, cons
     check.refine(section, plan.refine.back());
   });
   root.finish();
+  if (plan.empty())
+    throw UsageError(
+        fmt::format("{}: found no part, expected lists of scenes (converge, compare, scorecard or the same "
+                    "with quick_) or "
+                    "tables [[drift]], [[work]], [[speed]], [[survey]], [[peers]], [[vary]] or [[refine]]",
+                    path));
   return plan;
 }
 

@@ -119,10 +119,11 @@ struct StudyPlan {
   std::vector<PeerPlan> peers;
   std::vector<VaryPlan> vary;
   std::vector<StaticRefinePlan> refine;
+  bool empty() const;
 };
 
-/// Throws UsageError if the file does not fit; with a catalogue also if its scenes or integrators are not in
-/// it or do not go together.
+/// Throws UsageError if the file does not fit or has no part; with a catalogue also if its scenes or
+/// integrators are not in it or do not go together.
 StudyPlan read_study(const std::string& path, const Catalogue* catalogue = nullptr);
 /// What stands in the file. Throws UsageError if it cannot be read.
 std::string study_text(const std::string& path);

@@ -248,7 +248,7 @@ output::Figure varied_costs_figure(const Catalogue& catalogue, const std::vector
     time.series.push_back(std::move(seconds));
     rates.series.push_back(std::move(evaluations));
   }
-  figure.hollow_note = "hollow: an upper bound, the loosest setting is more exact";
+  figure.hollow_note = "hollow: an upper bound, no looser setting that ended well misses the error";
   if (timed) figure.panels.push_back(std::move(time));
   figure.panels.push_back(std::move(rates));
   output::settle_styles(figure);

@@ -166,6 +166,9 @@ TEST_CASE("cli: a wrong command line is refused before anything is written", "[c
       {run_of("s.toml", {"--t-end", "0"}), "--t-end: found '0', expected " + step},
       {run_of("s.toml", {"--t-end", "-1"}), "--t-end: found '-1', expected " + step},
       {run_of("s.toml", {"--t-end", "ten"}), "--t-end: found 'ten', expected " + step},
+      {run_of("s.toml", {"--t-end", "1e-300"}),
+       "--t-end: found 1e-300 s, 1.09e-300 times the time scale of the motion, expected at least 1e-100 "
+       "times"},
       {run_of("s.toml", {"--t-end", "1e20"}),
        "--t-end: found 1e+20 s, 1.09e+20 times the time scale of the motion, expected at most 1e15 times"},
       {run_of("s.toml", {"--samples", "0"}), "--samples: found '0', expected " + samples},

@@ -36,6 +36,11 @@ TEST_CASE("bench: a study with a wrong name is refused before anything is writte
                       "2: integrators: found none that runs on scene 'space-moment' (model rigid_body, load "
                       "space_moment), expected at least " +
                           integrators_for("space-moment"));
+  for (const char* none : {"", "# nothing\n", "converge = []\nintegrators = [\"rkmk4\"]\n"})
+    check_study_refused(
+        none,
+        " found no part, expected lists of scenes (converge, compare, scorecard or the same with quick_) or "
+        "tables [[drift]], [[work]], [[speed]], [[survey]], [[peers]], [[vary]] or [[refine]]");
   check_study_refused("\nconverge = ]\n", "2: found what is not TOML, expected valid TOML (");
 }
 

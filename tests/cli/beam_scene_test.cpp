@@ -78,9 +78,8 @@ TEST_CASE(
   const std::string supports = whole + "[supports]\n", rotated = "start = { kind = \"rotated\", ";
   const std::string ends = "one of free, pinned, clamped, or a table { kind = .., .. }";
   const std::string bend = "[[beam.bends]]\n";
-  const std::string meeting = "a multiple of 0.5 m, where two elements meet, behind the bend before it";
+  const std::string meeting = "a multiple of 0.5 m, where two elements meet, inside the beam of 1 m";
   const std::string hinge = "[[beam.hinges]]\n";
-  const std::string joint = "a multiple of 0.5 m, where two elements meet, behind the hinge before it";
   const std::string times = "at least two ascending numbers, the first 0 (s)";
   const std::vector<Case> cases{
       {top,
@@ -132,18 +131,18 @@ TEST_CASE(
        "s.toml:15: beam.bends[0].angle: found 4, expected a number between -pi and pi (rad, from x towards "
        "z)"},
       {whole + bend + "at = 0.5\nangle = 1\n" + bend + "at = 0.5\nangle = 1\n",
-       "s.toml:17: beam.bends[1].at: found 0.5, expected " + meeting},
+       "s.toml:17: beam.bends[1].at: found 0.5, expected " + meeting + ", behind the bend before it"},
       {whole + bend + "at = 0.5\nangel = 1\n",
        "s.toml:15: beam.bends[0].angel: found an unknown key, expected angle"},
       {whole + "hinges = 3\n", "s.toml:13: beam.hinges: found 3, expected tables [[beam.hinges]]"},
-      {whole + hinge, "s.toml:13: beam.hinges[0].at: found nothing, expected " + joint},
-      {whole + hinge + "at = 0.3\n", "s.toml:14: beam.hinges[0].at: found 0.3, expected " + joint},
-      {whole + hinge + "at = 0.0\n", "s.toml:14: beam.hinges[0].at: found 0.0, expected " + joint},
-      {whole + hinge + "at = 1.0\n", "s.toml:14: beam.hinges[0].at: found 1.0, expected " + joint},
+      {whole + hinge, "s.toml:13: beam.hinges[0].at: found nothing, expected " + meeting},
+      {whole + hinge + "at = 0.3\n", "s.toml:14: beam.hinges[0].at: found 0.3, expected " + meeting},
+      {whole + hinge + "at = 0.0\n", "s.toml:14: beam.hinges[0].at: found 0.0, expected " + meeting},
+      {whole + hinge + "at = 1.0\n", "s.toml:14: beam.hinges[0].at: found 1.0, expected " + meeting},
       {whole + hinge + "at = \"middle\"\n",
-       "s.toml:14: beam.hinges[0].at: found \"middle\", expected " + joint},
+       "s.toml:14: beam.hinges[0].at: found \"middle\", expected " + meeting},
       {whole + hinge + "at = 0.5\n" + hinge + "at = 0.5\n",
-       "s.toml:16: beam.hinges[1].at: found 0.5, expected " + joint},
+       "s.toml:16: beam.hinges[1].at: found 0.5, expected " + meeting + ", behind the hinge before it"},
       {whole + hinge + "at = 0.5\nspring = 0\n",
        "s.toml:15: beam.hinges[0].spring: found 0, expected a positive number (torsion spring between both "
        "sides, N m/rad)"},
@@ -224,10 +223,8 @@ TEST_CASE(
        "s.toml:13: loads[0].at: found nothing, expected one of start, end, distributed"},
       {whole + load + "[[loads]]\nat = \"middle\"\n",
        "s.toml:16: loads[1].at: found \"middle\", expected one of start, end, distributed"},
-      {whole + "[[loads]]\nat = 0.3\n",
-       "s.toml:14: loads[0].at: found 0.3, expected a multiple of 0.5 m, where two elements meet"},
-      {whole + "[[loads]]\nat = 1.0\n",
-       "s.toml:14: loads[0].at: found 1.0, expected a multiple of 0.5 m, where two elements meet"},
+      {whole + "[[loads]]\nat = 0.3\n", "s.toml:14: loads[0].at: found 0.3, expected " + meeting},
+      {whole + "[[loads]]\nat = 1.0\n", "s.toml:14: loads[0].at: found 1.0, expected " + meeting},
       {whole + load + "follower = 1\n", "s.toml:15: loads[0].follower: found 1, expected true or false"},
       {whole + "[[loads]]\nat = \"distributed\"\nfollower = true\n",
        "s.toml:15: loads[0].follower: found true for a load that is not at an end, expected false, or at = "

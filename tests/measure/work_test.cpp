@@ -91,6 +91,35 @@ TEST_CASE("measure: failed settings and zero errors do not break the cost curve"
   CHECK(cost_at(std::vector<WorkPoint>{{1e-2, 1.0}, {0.0, 2.0}}, 1e-3) == 2.0);
 }
 
+TEST_CASE("measure: all costs of a level are those of one setting") {
+  // As a solver behaves that fails at its third tolerance: the looser ones do not count for that.
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<WorkPoint> failing{{5e-5, 0.03}, {1e-6, 0.06}, {nan, nan}, {1e-9, 1.2}};
+  const double evaluations[] = {54484.0, 108925.0, 200000.0, 1798682.0};
+  for (const double level : {1e-2, 1e-6}) {
+    const auto setting = gnomon::level_setting(failing, level);
+    REQUIRE(setting);
+    CHECK(setting->place == 3);
+    CHECK(setting->upper_bound);
+    CHECK(gnomon::cost_there(*setting, evaluations).cost == 1798682.0);
+    CHECK(gnomon::level_cost(failing, level)->cost == 1.2);
+  }
+  // Chosen by the first cost, even where another setting needs less of the second; mixed in one proportion.
+  const std::vector<WorkPoint> curve{{1e-1, 1.0}, {1e-3, 4.0}, {1e-5, 2.0}, {1e-7, 8.0}};
+  const double other[] = {10.0, 20.0, 3000.0, 4000.0};
+  const auto by_time = gnomon::level_setting(curve, 1e-4);
+  REQUIRE(by_time);
+  CHECK(by_time->place == 2);
+  CHECK(by_time->looser_part == 0.0);  // the looser one costs more
+  CHECK(gnomon::cost_there(*by_time, other).cost == 3000.0);
+  const auto mixed = gnomon::level_setting(curve, 1e-6);
+  REQUIRE(mixed);
+  CHECK(mixed->place == 3);
+  CHECK(std::abs(mixed->looser_part - 0.5) <= 1e-12);
+  CHECK(std::abs(gnomon::cost_there(*mixed, other).cost - std::sqrt(3000.0 * 4000.0)) <= 1e-9);
+  CHECK(std::abs(gnomon::level_cost(curve, 1e-6)->cost - 4.0) <= 1e-12);
+}
+
 TEST_CASE("measure: the Pareto front keeps what nothing else beats") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<WorkPoint> points{{1e-2, 1.0}, {1e-3, 2.0}, {1e-3, 3.0}, {2e-3, 2.0},

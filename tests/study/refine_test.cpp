@@ -79,13 +79,22 @@ TEST_CASE("refine: what cannot be refined is refused", "[study]") {
   const RefinePlan good{"curved-free", {}, "beam.elements", {4, 8}};
   RefinePlan plan = good;
   plan.scene = "asymmetric-free-top";
-  plan.key = "body.weight";
-  CHECK(refusal(plan, options).find("weight") != std::string::npos);
-  plan = good;
   plan.key = "t_end";
-  plan.scene = "asymmetric-free-top";
   CHECK(refusal(plan, options) ==
         "--refine: found scene 'asymmetric-free-top' of model rigid_body, expected a model with a mesh");
+  // Numbers that change the motion and not its mesh, and the order of the elements.
+  for (const char* key : {"beam.EI", "beam.length", "beam.order", "t_end", "beam.elemnts"}) {
+    plan = good;
+    plan.key = key;
+    CHECK(refusal(plan, options) == std::string("--refine: found the key '") + key +
+                                        "', expected one that makes the mesh finer: beam.elements");
+  }
+  plan = good;
+  plan.values = {4, 300'000};
+  CHECK(
+      refusal(plan, options)
+          .starts_with("--refine: found beam.elements = 300000, expected one of which 4 times as much can be "
+                       "made to compare with (--set beam.elements=1200000: beam.elements: found 1200000, "));
   plan = good;
   plan.values = {4.5, 8};
   CHECK(refusal(plan, options).find("beam.elements: found 4.5, expected") != std::string::npos);
