@@ -100,7 +100,8 @@ TEST_CASE("study file: what it says is read", "[study]") {
 }
 
 TEST_CASE("study file: what does not fit is refused", "[study]") {
-  CHECK(refusal("converge = []\n") == "nothing");
+  CHECK(refusal("converge = [\"kovalevskaya\"]\n") == "nothing");
+  CHECK(refusal("converge = []\n").starts_with(" found no part"));
   CHECK(refusal("convurge = []\n") == "1: convurge: found an unknown key, expected converge");
   CHECK(refusal("converge = \"a\"\n") == "1: converge: found \"a\", expected names of scenes");
   CHECK(refusal("compare = [1]\n") == "1: compare: found [1], expected names of scenes");
