@@ -152,11 +152,19 @@ class Study {
   std::vector<Part> parts_;
 };
 
+std::string results_folder() { return std::string(GNOMON_SOURCE_DIR) + "/results"; }
+
+/// The tables in README.md are those of the published study with times.
+void keep_readme(const Study& study, const std::string& folder, bool published) {
+  if (published && fs::weakly_canonical(folder) == fs::weakly_canonical(results_folder()))
+    study.update_readme();
+}
+
 }  // namespace
 
 int bench(Context& context) {
   const Request& request = context.request;
-  const std::string results = std::string(GNOMON_SOURCE_DIR) + "/results";
+  const std::string results = results_folder();
   // The published tables have times.
   const bool own = !request.study.empty() || (request.no_timing && !request.quick);
   const std::string usual = own ? "gnomon-out" : request.quick ? results + "/quick" : results;
@@ -175,8 +183,7 @@ int bench(Context& context) {
         store.path());
     return interrupted;
   }
-  if (!request.no_timing && fs::weakly_canonical(folder) == fs::weakly_canonical(results))
-    study.update_readme();
+  keep_readme(study, folder, !own && !request.no_timing);
   return done;
 }
 
@@ -192,7 +199,9 @@ int report(Context& context) {
   const Session session = session_of(store);
   Study study(context, store, session, read_plans(context, session, session.study), folders.front(), false);
   try {
-    return study.make() ? done : interrupted;
+    if (!study.make()) return interrupted;
+    keep_readme(study, folders.front(), session.study.empty() && session.timed && !session.quick);
+    return done;
   } catch (const nlohmann::json::exception& error) {
     throw UsageError(
         fmt::format("{}: found measurements of another version of gnomon ({}), expected those of this one",

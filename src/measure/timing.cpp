@@ -99,6 +99,11 @@ std::vector<TimingStats> measure_interleaved(const std::vector<TimedTask>& tasks
       const auto seconds = measure(i, calls);
       if (!seconds) break;
       states[i].batch = batch_size(*seconds, plan.min_seconds);
+      // What is cold at its beginning does not count in so long a run: it is the first repetition.
+      if (calls == 1 && *seconds >= plan.warm_seconds) {
+        states[i].seconds.push_back(*seconds);
+        states[i].last = *seconds;
+      }
       if (*seconds * static_cast<double>(calls) >= plan.min_seconds / 20.0) break;
     }
   }
@@ -119,7 +124,7 @@ std::vector<TimingStats> measure_interleaved(const std::vector<TimedTask>& tasks
       }
     }
     for (std::size_t i = 0; i < tasks.size() && !stopped; ++i) {
-      if (states[i].failed || states[i].over) continue;
+      if (states[i].failed || states[i].over || (round == 0 && !states[i].seconds.empty())) continue;
       const double from = plan.clock();
       const auto extra = static_cast<long>(random() % static_cast<std::uint64_t>(states[i].batch / 5 + 1));
       if (const auto seconds = measure(i, states[i].batch + extra)) states[i].seconds.push_back(*seconds);

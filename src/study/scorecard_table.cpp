@@ -89,21 +89,21 @@ const std::optional<LevelCost>& cost_of(const Score& score, std::size_t level, b
   return times ? score.seconds[level] : score.evaluations[level];
 }
 
-/// Of the schemes that step.
+/// Of the schemes that step; those that are exact on the scene need one step for any error.
 std::optional<LevelCost> least_cost(const Scorecard& card, std::size_t level, bool times) {
   std::optional<LevelCost> least;
   for (const Score& score : card.scores)
     if (const auto& cost = cost_of(score, level, times);
-        cost && score.scheme->stepping != Stepping::closed_form && (!least || cost->cost < least->cost))
+        cost && score.scheme->stepping != Stepping::closed_form &&
+        score.order.finding != OrderFinding::exact && (!least || cost->cost < least->cost))
       least = cost;
   return least;
 }
 
-/// Geometric mean over the scenes, if the scheme reaches the level on all of them: means over different
-/// scenes do not compare. An upper bound carries over to it; where the least is one, the ratio is a lower
-/// bound.
-output::Cell joint_cost_cell(const std::vector<ScoreOn>& all, std::size_t scenes, std::size_t level,
-                             bool times) {
+/// Geometric mean over the scenes that the scheme runs on, if it reaches the level on all of them: without
+/// those where it is dearest a mean says nothing. An upper bound carries over to it; where the least is one,
+/// the ratio is a lower bound.
+output::Cell joint_cost_cell(const std::vector<ScoreOn>& all, std::size_t level, bool times) {
   double logarithms = 0.0;
   std::size_t reached = 0;
   bool at_most = false, at_least = false, few = false;
@@ -119,7 +119,7 @@ output::Cell joint_cost_cell(const std::vector<ScoreOn>& all, std::size_t scenes
     ++reached;
   }
   if (reached == 0) return {};
-  if (reached < scenes) return {output::missing_text + of_all(reached, scenes), ""};
+  if (reached < all.size()) return {output::missing_text + of_all(reached, all.size()), ""};
   output::Cell cell = output::number_cell(std::exp(logarithms / static_cast<double>(reached)), 2);
   if (at_most || at_least) cell.text = (at_most && at_least ? "≈ " : at_most ? "≤ " : "≥ ") + cell.text;
   if (few) cell.text += "°";
@@ -227,7 +227,7 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
     std::vector<output::Cell> cells{std::string(scheme->name) + of_all(all.size(), cards.size()),
                                     joint_order_cell(all)};
     for (std::size_t k = 0; k < cards.front().levels.size(); ++k)
-      cells.push_back(joint_cost_cell(all, cards.size(), k, times));
+      cells.push_back(joint_cost_cell(all, k, times));
     add_energy_cells(cells, all);
     add_step_cells(cells, all);
     cells.emplace_back(fmt::format("{} of {}", failed, runs), fmt::format("{}", failed));
@@ -242,12 +242,11 @@ output::Table joint_scorecard_table(const std::string& heading, const std::vecto
   }
   table.notes.push_back("scenes: " + scenes + "; in brackets on how many of them, where not on all");
   table.notes.push_back(fmt::format(
-      "{} to an error: times the least of the schemes that step, geometric mean over the scenes, all of "
-      "which have to reach it; ≤: on one of them already the loosest setting that ended well reaches it, ≥: "
-      "that "
-      "of the scheme with the least, ≈: both; °: fewer than two tighter settings confirm it; — not reached, "
-      "in "
-      "brackets on how many scenes it is",
+      "{} to an error: times the least of the schemes that step and are not exact, geometric mean over the "
+      "scenes that the scheme runs on, if it reaches it on all of them; ≤: on one of them already the "
+      "loosest "
+      "setting that ended well reaches it, ≥: that of the scheme with the least, ≈: both; °: fewer than two "
+      "tighter settings confirm it; — not reached, in brackets on how many scenes it is",
       what));
   table.notes.push_back(std::string("order: ") + order_marks);
   add_undecided(table, cards);

@@ -39,7 +39,7 @@ std::vector<const SchemeInfo*> varied_schemes(const std::vector<Comparison>& var
 /// How a value stands above its column: the number alone where the others of a list do not change.
 std::string value_heading(const Variation& variation, std::size_t of) {
   const auto axis = variation.axis();
-  return axis && variation.values[of].starts_with('[') ? fmt::format("{:g}", axis->values[of])
+  return axis && variation.values[of].starts_with('[') ? fmt::format("{}", axis->values[of])
                                                        : variation.values[of];
 }
 

@@ -33,6 +33,7 @@ struct Stage {
     TimingPlan p;
     p.repetitions = repetitions;
     p.min_seconds = min_seconds;
+    p.warm_seconds = std::numeric_limits<double>::infinity();
     p.clock = [this] { return now; };
     return p;
   }
@@ -89,9 +90,20 @@ TEST_CASE("measure: the first call does not count") {
   Stage stage;
   int calls = 0;
   const std::vector<TimedTask> tasks{{[&] { return ++calls == 1 ? 9.0 : 1.0; }}};
-  const auto stats = measure_interleaved(tasks, stage.plan(3, 0.02), nullptr);
+  TimingPlan plan = stage.plan(3, 0.02);
+  auto stats = measure_interleaved(tasks, plan, nullptr);
   CHECK(calls == 4);
   CHECK(stats[0].max == 1.0);
+
+  // Unless it is so long that its beginning does not matter.
+  for (const double warm : {9.0, 9.1}) {
+    calls = 0;
+    plan.warm_seconds = warm;
+    stats = measure_interleaved(tasks, plan, nullptr);
+    CHECK(stats[0].repetitions == 3);
+    CHECK(calls == (warm > 9.0 ? 4 : 3));
+    CHECK(stats[0].max == (warm > 9.0 ? 1.0 : 9.0));
+  }
 }
 
 TEST_CASE("measure: short tasks are batched to the least time, with up to a fifth more calls") {

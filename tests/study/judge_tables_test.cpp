@@ -52,6 +52,18 @@ TEST_CASE("scorecard: means say what bounds and few settings they rest on, and w
   CHECK(cell(1, LevelCost{1.0, true, false}, four, one, LevelCost{1.0, true, false}) == "≈ 2.0");
   CHECK(cell(1, one, std::nullopt, one, one) == "— (1 of 2)");
   CHECK(cell(1, one, std::nullopt, one, std::nullopt) == "—");
+  // What is exact takes one step for any error and is no measure for the others.
+  std::vector<Scorecard> cards = cards_of(catalogue, one, four, one, one);
+  const auto shown = [&](std::size_t row) {
+    return joint_scorecard_table("", cards).rows.at(row).at(2).text;
+  };
+  cards[0].scores[0].order.finding = OrderFinding::exact;
+  CHECK(shown(0) == "0.50");
+  CHECK(shown(1) == "1.0");
+  // Where a scheme does not run it has not failed.
+  cards = cards_of(catalogue, one, four, one, one);
+  cards[1].scores.pop_back();
+  CHECK(shown(1) == "4.0");
 }
 
 TEST_CASE("survey: a scheme without a time has a reason, in a note and in the document", "[study][survey]") {
