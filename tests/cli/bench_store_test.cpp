@@ -164,7 +164,7 @@ TEST_CASE("bench: a study whose file has been moved or changed is reported as it
   check_report(study, {"drift-another.md", "drift-mine-own.csv"});
 }
 
-TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][store]") {
+TEST_CASE("bench: the scorecard comes first, from the store alone too", "[cli][store][long]") {
   const StudyFolder study(
       "quick_scorecard = [\"asymmetric-free-top\", \"space-moment\"]\n"
       "quick_converge = [\"space-moment\"]\nintegrators = [\"munjiza\", \"rkmk4\"]\n");

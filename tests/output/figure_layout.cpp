@@ -155,7 +155,7 @@ TEST_CASE("output: text in figures is large enough, inside and apart") {
   check_texts(lay_out(one));
 }
 
-TEST_CASE("output: text of many curves and of extreme ranges stays apart") {
+TEST_CASE("output: text of many curves and of extreme ranges stays apart", "[long]") {
   const std::vector<std::pair<Range, Range>> ranges = {{{1e-3, 1e2}, {1e-14, 1e0}},
                                                        {{0.05, 0.5}, {1e-27, 1e290}},
                                                        {{1e-299, 1e299}, {1e-299, 1e299}},

@@ -160,7 +160,7 @@ TEST_CASE("rigid body: heavy symmetric tops that are or become vertical", "[rigi
   }
 }
 
-TEST_CASE("rigid body: heavy symmetric tops near the separatrix", "[rigid_body][closed_form]") {
+TEST_CASE("rigid body: heavy symmetric tops near the separatrix", "[rigid_body][closed_form][long]") {
   // The pendulum that reaches the upper vertical in infinite time passes the lower one at the rate
   // 2 sqrt(torque/I1). With a little more momentum, or a little spin, it passes the vertical or turns, again
   // and again; k1^2 is about that little, by which extended precision is lost in a series each time.

@@ -111,7 +111,7 @@ TEST_CASE("survey: every scheme that chooses its steps and every closed form has
         solver(gravity, "arkode-erk4").run.result.cost.steps);
 }
 
-TEST_CASE("survey: its tables of solvers can be made again from the store alone", "[study][survey]") {
+TEST_CASE("survey: its tables of solvers can be made again from the store alone", "[study][survey][long]") {
   SolverSurvey survey;
   test::TemporaryFolder folder;
   Keeper::Plan plan;
